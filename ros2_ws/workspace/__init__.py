@@ -1,0 +1,1 @@
+"""How a checkout becomes a built workspace. Standard library only: it runs before anything is installed."""
