@@ -1,0 +1,1 @@
+"""GeoHTN's motion planner: meets geometric preconditions and plans the way there."""

@@ -1,0 +1,1 @@
+"""What a candidate would cost, without planning its motion."""

@@ -1,0 +1,19 @@
+"""The library of functions that geometric constraints are made of (Table 2 of the paper)."""
+
+from motion_planner_node.functions.dual import Array, Dual
+from motion_planner_node.functions.function import COMPONENTS, Function, Kind
+from motion_planner_node.functions.interval import Interval
+from motion_planner_node.functions.library import FUNCTIONS
+from motion_planner_node.functions.scalar import Place, Scalar
+
+__all__ = [
+    'COMPONENTS',
+    'FUNCTIONS',
+    'Array',
+    'Dual',
+    'Function',
+    'Interval',
+    'Kind',
+    'Place',
+    'Scalar',
+]

@@ -1,0 +1,59 @@
+"""What the language knows of a function: its name, kinds, value and derivatives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+from motion_planner_node.functions.dual import Dual
+
+
+class Kind(Enum):
+    """What an argument or a result is; the value is its name in messages."""
+
+    NUMBER = 'a number'
+    ANGLE = 'an angle'
+    PLACE = 'an agent or an object'
+    AGENT = 'an agent'
+
+
+#: Components of the state vector by which a derivative can be taken, in the order of gradients.
+COMPONENTS = ('x', 'y', 'heading')
+
+
+@dataclass(frozen=True, slots=True)
+class Function:
+    """A function of the library (Table 2 of the paper).
+
+    ``value`` takes a ``Scalar`` for each NUMBER (an ANGLE is one too, in radians, modulo 2 pi) and
+    a ``Place`` for each PLACE or AGENT, and returns a ``Scalar``. Its derivatives follow by
+    forward-mode differentiation; ``derived_codes`` names the components whose derivatives the
+    paper's truncated gradient keeps.
+    """
+
+    name: str
+    arguments: tuple[Kind, ...]
+    result: Kind
+    value: Callable[..., Any]
+    description: str
+    unit: str = ''
+    derived_codes: tuple[str, ...] = COMPONENTS
+    symmetric: bool = False
+
+    def truncated(self, *arguments: Any) -> Any:
+        """``value`` of duals with only the derivatives of ``derived_codes``, as in Table 2."""
+        result = self.value(*arguments)
+        if result.gradient is None or self.derived_codes == COMPONENTS:
+            return result
+        gradient = result.gradient.copy()
+        for index, component in enumerate(COMPONENTS):
+            if component not in self.derived_codes:
+                gradient[index] = 0.0
+        return Dual(result.value, gradient)
+
+    @property
+    def signature(self) -> str:
+        """Name and kinds of arguments: ``distance(an agent or an object, ...)``."""
+        return f'{self.name}({", ".join(kind.value for kind in self.arguments)})'

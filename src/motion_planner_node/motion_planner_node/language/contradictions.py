@@ -1,0 +1,149 @@
+"""Constraints that exclude each other, or can never hold, whatever the attitude.
+
+The sides of a constraint are brought to a sum of terms and a number; constraints over the same
+terms bound the same quantity, and their bounds are compared. This works on texts with variables.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import inf, nan, pi, remainder
+
+import numpy as np
+
+from motion_planner_node.codes import Code
+from motion_planner_node.errors import Diagnostic
+from motion_planner_node.functions import Interval
+from motion_planner_node.language.linear import Linear, linear
+from motion_planner_node.language.printer import number_to_text, to_text
+from motion_planner_node.language.syntax import Constraint
+from motion_planner_node.language.tape import Tape
+
+_TOLERANCE = 1e-9
+_FLIPPED = {'<': '>', '<=': '>=', '>': '<', '>=': '<=', '=': '='}
+
+
+@dataclass(frozen=True, slots=True)
+class _Bound:
+    """``quantity`` compared with ``value``: one constraint with its terms on the left."""
+
+    quantity: tuple[tuple[str, float], ...]
+    comparator: str
+    value: float
+    periodic: bool
+    constraint: Constraint
+
+
+def contradictions(
+    constraints: Sequence[Constraint], periodic: Sequence[bool]
+) -> tuple[Diagnostic, ...]:
+    """Errors with both places and numbers; ``periodic`` tells the equalities modulo 2 pi.
+
+    The constraints have to be free of other errors.
+    """
+    found: list[Diagnostic] = []
+    bounds: dict[tuple[tuple[str, float], ...], list[_Bound]] = {}
+    for constraint, modulo in zip(constraints, periodic, strict=True):
+        form = linear(constraint.left).plus(linear(constraint.right), -1.0)
+        reason = _never_holds(constraint, form, modulo)
+        if reason:
+            found.append(_diagnostic(constraint, f'{to_text(constraint)} never holds: {reason}'))
+            continue
+        bound = _bound(constraint, form, modulo) if form.terms else None
+        if bound is None:
+            continue
+        others = bounds.setdefault(bound.quantity, [])
+        for other in others:
+            if _exclude(other, bound):
+                found.append(_diagnostic(constraint, _sentence(other, bound)))
+                break
+        others.append(bound)
+    return tuple(found)
+
+
+def _diagnostic(constraint: Constraint, message: str) -> Diagnostic:
+    text = to_text(constraint)
+    return Diagnostic(message, constraint.line, constraint.column, text, code=Code.CONTRADICTION)
+
+
+def _sentence(first: _Bound, second: _Bound) -> str:
+    place = first.constraint
+    where = f' (line {place.line}, column {place.column})' if place.line else ''
+    return f'{to_text(first.constraint)}{where} and {to_text(second.constraint)} exclude each other'
+
+
+def _never_holds(constraint: Constraint, form: Linear, periodic: bool) -> str:
+    """Why no attitude at all meets the constraint; empty if that is not certain."""
+    number = form.number
+    if not form.terms:
+        off = abs(remainder(number, 2.0 * pi)) if periodic else number
+        slack = _TOLERANCE * max(1.0, abs(number))
+        if _holds(constraint.comparator, off, slack):
+            return ''
+        return f'the left side minus the right side is {number_to_text(number)}'
+    if periodic:
+        return ''
+    tape = Tape('', {})
+    left, right = tape.slot(constraint.left), tape.slot(constraint.right)
+    whole = Interval.constant(nan)
+    with np.errstate(all='ignore'):
+        values = tape.run((whole, whole, whole), Interval.constant)
+        difference = values[left] - values[right]
+    comparator = constraint.comparator
+    lower = (comparator in {'<=', '='} and difference.low > 0.0) or (
+        comparator == '<' and difference.low >= 0.0
+    )
+    upper = (comparator in {'>=', '='} and difference.high < 0.0) or (
+        comparator == '>' and difference.high <= 0.0
+    )
+    if not lower and not upper:
+        return ''
+    for side, slot, is_low in ((constraint.left, left, lower), (constraint.right, right, upper)):
+        limit = values[slot].low if is_low else values[slot].high
+        if tape.constant(slot) is None and np.isfinite(limit):
+            return f'{to_text(side)} is at {"least" if is_low else "most"} {_rounded(limit)}'
+    return 'the two sides cannot come together'
+
+
+def _rounded(value: np.float64 | np.ndarray) -> str:
+    return number_to_text(round(float(value), 9) + 0.0)
+
+
+def _holds(comparator: str, difference: float, slack: float) -> bool:
+    """Whether ``difference`` compared with 0 holds, in doubt yes; strict ones in doubt not."""
+    return {
+        '<': difference < 0.0,
+        '<=': difference <= slack,
+        '>': difference > 0.0,
+        '>=': difference >= -slack,
+        '=': abs(difference) <= slack,
+    }[comparator]
+
+
+def _exclude(first: _Bound, second: _Bound) -> bool:
+    if first.periodic or second.periodic:
+        both = first.periodic and second.periodic
+        return both and abs(remainder(first.value - second.value, 2.0 * pi)) > _TOLERANCE
+    (low, low_strict), (high, high_strict) = _range((first, second))
+    slack = _TOLERANCE * max(1.0, abs(low) if abs(low) < inf else 0.0)
+    return low > high + slack or (low >= high and (low_strict or high_strict))
+
+
+def _range(bounds: Sequence[_Bound]) -> tuple[tuple[float, bool], tuple[float, bool]]:
+    """The highest lower and the lowest upper bound, each with whether it is strict."""
+    lower = [(b.value, b.comparator == '>') for b in bounds if b.comparator in {'>', '>=', '='}]
+    upper = [(b.value, b.comparator != '<') for b in bounds if b.comparator in {'<', '<=', '='}]
+    low = max(lower, default=(-inf, False))
+    high, not_strict = min(upper, default=(inf, True))
+    return low, (high, not not_strict)
+
+
+def _bound(constraint: Constraint, form: Linear, periodic: bool) -> _Bound | None:
+    first = min(form.terms)
+    factor = form.terms[first]
+    if periodic and abs(factor) != 1.0:
+        return None
+    quantity = tuple((name, form.terms[name] / factor) for name in sorted(form.terms))
+    comparator = constraint.comparator if factor > 0.0 else _FLIPPED[constraint.comparator]
+    return _Bound(quantity, comparator, -form.number / factor, periodic, constraint)

@@ -1,0 +1,172 @@
+"""Every parameter of the motion planner, declared once: type, unit, range and description."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from math import isfinite
+from typing import Any
+
+
+class ParameterError(ValueError):
+    """A parameter has a value that it cannot have; the message is a sentence for people."""
+
+
+@dataclass(frozen=True, slots=True)
+class Specification:
+    """One row of the table: ``low`` and ``high`` are inclusive and absent for texts."""
+
+    name: str
+    default: str | int | float
+    unit: str
+    description: str
+    low: float | None = None
+    high: float | None = None
+    read_only: bool = False
+
+    @property
+    def kind(self) -> str:
+        """What a person calls the type."""
+        return {str: 'text', int: 'integer', float: 'number'}[type(self.default)]
+
+    def accept(self, value: object) -> str | int | float:
+        """Return ``value`` as the type of the parameter; a whole number will do for a number.
+
+        :raises ParameterError: with a sentence, when the type or the range is wrong
+        """
+        if isinstance(self.default, str):
+            if isinstance(value, str):
+                return value
+        elif not isinstance(value, bool) and isinstance(value, int | float) and isfinite(value):
+            if isinstance(self.default, float):
+                value = float(value)
+            if isinstance(value, type(self.default)) and self._in_range(value):
+                return value
+        raise ParameterError(f'parameter {self.name} must be {self.expected}, not {value!r}')
+
+    @property
+    def expected(self) -> str:
+        """The values that are accepted, in words."""
+        if self.low is None or self.high is None:
+            return 'a text'
+        article = 'an' if self.kind == 'integer' else 'a'
+        unit = f' {self.unit}' if self.unit else ''
+        return f'{article} {self.kind} from {self.low:g} to {self.high:g}{unit}'
+
+    def _in_range(self, value: float) -> bool:
+        return self.low is not None and self.high is not None and self.low <= value <= self.high
+
+
+def _parameter(
+    default: Any,
+    description: str,
+    *,
+    unit: str = '',
+    low: float | None = None,
+    high: float | None = None,
+    read_only: bool = False,
+) -> Any:
+    return field(
+        default=default,
+        metadata={
+            'unit': unit,
+            'description': description,
+            'low': low,
+            'high': high,
+            'read_only': read_only,
+        },
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Parameters:
+    """A consistent set of values: what the motion planner works with."""
+
+    world: str = _parameter(
+        '',
+        'file with the world to start with, as in docs/world.md; empty to wait for set_world',
+        read_only=True,
+    )
+    time_budget: float = _parameter(
+        10.0,
+        'wall clock for one request that names no budget of its own',
+        unit='s',
+        low=0.001,
+        high=3600.0,
+    )
+    destinations: int = _parameter(
+        32, 'destination attitudes looked for in one round of restarts', low=1, high=4096
+    )
+    rounds: int = _parameter(
+        4, 'rounds of restarts before a request is given up as UNKNOWN', low=1, high=1000
+    )
+    paths_per_answer: int = _parameter(
+        6,
+        'paths planned to different destinations before the shortest so far is answered',
+        low=1,
+        high=1000,
+    )
+    failures_per_answer: int = _parameter(
+        24,
+        'destinations without a path before a request is given up as UNKNOWN',
+        low=1,
+        high=100000,
+    )
+    alternative_distance: float = _parameter(
+        10.0,
+        'two destinations this far apart are different alternatives',
+        unit='m',
+        low=0.001,
+        high=100000.0,
+    )
+    alternative_heading: float = _parameter(
+        0.75,
+        'two destinations whose headings differ by this much are different alternatives',
+        unit='rad',
+        low=0.001,
+        high=3.14,
+    )
+    cache_size: int = _parameter(
+        256,
+        'requests and candidates whose work is kept to answer the next one sooner',
+        low=1,
+        high=100000,
+    )
+
+
+def specifications() -> tuple[Specification, ...]:
+    """The table, in the order of the declaration."""
+    rows: list[tuple[str, Any, Mapping[str, Any]]] = [
+        (row.name, row.default, row.metadata) for row in fields(Parameters)
+    ]
+    return tuple(Specification(name, default, **metadata) for name, default, metadata in rows)
+
+
+def read_parameters(values: Mapping[str, object]) -> Parameters:
+    """Check ``values`` by name and return them as a set; what is not named has its default.
+
+    :raises ParameterError: for an unknown name, a wrong type or a value out of range
+    """
+    table = {row.name: row for row in specifications()}
+    for name in values:
+        if name not in table:
+            raise ParameterError(f'there is no parameter {name}; there are {", ".join(table)}')
+    accepted: dict[str, Any] = {name: table[name].accept(value) for name, value in values.items()}
+    return Parameters(**accepted)
+
+
+def markdown() -> str:
+    """The table as docs/parameters.md holds it."""
+    lines = [
+        '| parameter | type | default | range | meaning |',
+        '|---|---|---|---|---|',
+    ]
+    for row in specifications():
+        default = f'{row.default:g}' if isinstance(row.default, float) else repr(row.default)
+        span = '' if row.low is None else f'{row.low:g} to {row.high:g}'
+        unit = f' [{row.unit}]' if row.unit else ''
+        fixed = '; fixed once the node runs' if row.read_only else ''
+        lines.append(
+            f'| `{row.name}` | {row.kind}{unit} | {default} | {span} | {row.description}{fixed} |'
+        )
+    return '\n'.join(lines) + '\n'

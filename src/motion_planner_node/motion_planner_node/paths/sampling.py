@@ -1,0 +1,128 @@
+"""OMPL's bidirectional sampling planner in the car's own kinematics.
+
+J. J. Kuffner and S. M. LaValle, "RRT-Connect: an efficient approach to single-query path planning",
+ICRA 2000, on OMPL's Dubins state space.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from threading import Lock
+
+import numpy as np
+from numpy.typing import NDArray
+from ompl import base, geometric, util
+
+from motion_planner_node.errors import Stopped
+from motion_planner_node.paths.edges import shortest_is_free
+from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.world.clearance import clearance_at
+from motion_planner_node.world.shapes import Shapes
+
+util.setLogLevel(util.LogLevel.LOG_NONE)
+
+# OMPL hands out seeds process-wide: two searches at a time would take them from each other.
+_ONE_AT_A_TIME = Lock()
+
+
+class _Edges(base.MotionValidator):
+    """An edge is valid when its shortest Dubins word is free as a whole."""
+
+    def __init__(
+        self, information: base.SpaceInformation, shapes: Shapes, margin: float, radius: float
+    ) -> None:
+        super().__init__(information)
+        self._scene = (shapes, margin, radius)
+
+    def checkMotion(self, start: base.State, end: base.State) -> bool:
+        """Whether the edge from ``start`` to ``end`` is valid."""
+        return shortest_is_free(
+            *self._scene,
+            start.getX(),
+            start.getY(),
+            start.getYaw(),
+            end.getX(),
+            end.getY(),
+            end.getYaw(),
+        )
+
+
+class _Iterations:
+    """Ends a search after a number of iterations, or when it is to stop."""
+
+    def __init__(self, most: int, should_stop: Callable[[], bool]) -> None:
+        self._left = most
+        self._should_stop = should_stop
+        self.error: Exception | None = None
+
+    def __call__(self) -> bool:
+        self._left -= 1
+        if self.error is None:
+            try:
+                if self._should_stop():
+                    raise Stopped
+            except Exception as error:  # noqa: BLE001  (it would be lost in OMPL)
+                self.error = error
+        return self.error is not None or self._left < 0
+
+
+def _space(shapes: Shapes, radius: float) -> base.DubinsStateSpace:
+    space = base.DubinsStateSpace(radius)
+    bounds = base.RealVectorBounds(2)
+    x_min, y_min, x_max, y_max = (float(value) for value in shapes.bounds)
+    bounds.setLow(0, x_min)
+    bounds.setLow(1, y_min)
+    bounds.setHigh(0, x_max)
+    bounds.setHigh(1, y_max)
+    space.setBounds(bounds)
+    return space
+
+
+def _state(space: base.DubinsStateSpace, attitude: Attitude) -> base.State:
+    state = space.allocState()
+    state.setXY(attitude.x, attitude.y)
+    state.setYaw(attitude.heading)
+    return state
+
+
+def sample_path(
+    shapes: Shapes,
+    margin: float,
+    radius: float,
+    start: Attitude,
+    goal: Attitude,
+    seed: int,
+    iterations: int,
+    should_stop: Callable[[], bool],
+) -> NDArray[np.float64] | None:
+    """Attitudes (n, 3) from ``start`` to ``goal`` whose shortest Dubins words are free.
+
+    ``margin`` [m] is the clearance that is kept, ``radius`` [m] the turning radius.  None when
+    there was none after ``iterations``.  Raises Stopped when ``should_stop`` says so.
+    """
+    space = _space(shapes, radius)
+    information = base.SpaceInformation(space)
+    information.setStateValidityChecker(
+        lambda state: bool(clearance_at(shapes, state.getX(), state.getY())[0] >= margin)
+    )
+    edges = _Edges(information, shapes, margin, radius)
+    information.setMotionValidator(edges)
+    problem = base.ProblemDefinition(information)
+    problem.setStartAndGoalStates(_state(space, start), _state(space, goal))
+    count = _Iterations(iterations, should_stop)
+    with _ONE_AT_A_TIME:
+        util.RNG.setSeed(seed)
+        information.setup()
+        planner = geometric.RRTConnect(information)
+        planner.setProblemDefinition(problem)
+        planner.setup()
+        planner.solve(base.PlannerTerminationCondition(count))
+    if count.error is not None:
+        raise count.error
+    if not problem.hasExactSolution():
+        return None
+    states = problem.getSolutionPath().getStates()
+    path = np.array([(s.getX(), s.getY(), s.getYaw()) for s in states])
+    path[0] = start.x, start.y, start.heading
+    path[-1] = goal.x, goal.y, goal.heading
+    return path

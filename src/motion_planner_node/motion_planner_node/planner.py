@@ -1,0 +1,140 @@
+"""The motion planner: stateless but for its world, and the same answer to the same question."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from motion_planner_node.advice.advisor import Advisor
+from motion_planner_node.errors import MotionPlannerError, Stopped
+from motion_planner_node.language import Preconditions, parse
+from motion_planner_node.parameters import Parameters
+from motion_planner_node.planning import answers
+from motion_planner_node.planning.cache import Cache
+from motion_planner_node.planning.check import CheckResult, check_text
+from motion_planner_node.planning.ground import Ground
+from motion_planner_node.planning.problem import (
+    Problem,
+    check_request,
+    checked_state,
+    read_problem,
+)
+from motion_planner_node.planning.proofs import blocked_start, contradiction
+from motion_planner_node.planning.stream import Stream
+from motion_planner_node.requests import (
+    AdviceAnswer,
+    AdviceRequest,
+    GeometricAnswer,
+    GeometricRequest,
+)
+from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.world import Scene
+from motion_planner_node.world.model import (
+    Bounds,
+    CarModel,
+    Circle,
+    Polygon,
+    World,
+    WorldObject,
+)
+
+ShouldStop = Callable[[], bool]
+
+
+def _never() -> bool:
+    return False
+
+
+class MotionPlanner:
+    """Answers requests about one world.
+
+    What it keeps between requests only saves work: a planner that was asked nothing before gives
+    the same answers, bit for bit.  Not for several threads at once.
+    """
+
+    def __init__(self, world: World, parameters: Parameters | None = None):
+        self.world = world
+        self._parameters = parameters or Parameters()
+        self._scene = Scene(world)
+        self._grounds: dict[CarModel, Ground] = {}
+        size = self._parameters.cache_size
+        self._texts: Cache[str, Preconditions] = Cache(size)
+        self._streams: Cache[object, Stream] = Cache(size)
+        self._advisor = Advisor(world, self._parameters, self._parsed, self._ground)
+
+    def satisfy(
+        self, request: GeometricRequest, should_stop: ShouldStop = _never
+    ) -> GeometricAnswer:
+        """Find an attitude that meets the preconditions, and a motion to it (Algorithm 1).
+
+        Whatever is wrong is in the answer's code and message; nothing is raised.
+        """
+        try:
+            check_request(self.world, request)
+            state = checked_state(self.world, request.start)
+            preconditions = self._parsed(request.preconditions)
+            problem = read_problem(self.world, preconditions, state, request.agent)
+            if problem.program.assigns:
+                return answers.assigned(problem, self._ground, request.alternative)
+        except MotionPlannerError as error:
+            return answers.refused(error, self.world.revision)
+        ground = self._ground(problem.car)
+        proof = contradiction(problem) or blocked_start(problem, ground)
+        if proof:
+            return answers.impossible(problem, ground, proof)
+        return self._search(request, problem, ground, should_stop)
+
+    def _search(
+        self,
+        request: GeometricRequest,
+        problem: Problem,
+        ground: Ground,
+        should_stop: ShouldStop,
+    ) -> GeometricAnswer:
+        key = (request.preconditions, tuple(problem.state.items()), request.seed)
+        stream = self._streams.get(
+            key, lambda: Stream(problem, ground, self._parameters, request.seed)
+        )
+        try:
+            found = stream.find(request.alternative, should_stop)
+        except Stopped:
+            return answers.out_of_time(problem, ground, stream.tried)
+        if found:
+            return answers.found(problem, ground, found)
+        if stream.proof:
+            return answers.impossible(problem, ground, stream.proof)
+        return answers.exhausted(problem, ground, stream.tried, request.alternative)
+
+    def advise(self, request: AdviceRequest, should_stop: ShouldStop = _never) -> AdviceAnswer:
+        """Say what each candidate would cost from here, and which to try first.
+
+        :raises MotionPlannerError: when there can be no advice at all, as for `satisfy`
+        :raises Stopped: when ``should_stop`` said so
+        """
+        return self._advisor.advise(request, should_stop)
+
+    def check(self, text: str, source: str = '', line: int = 0, column: int = 0) -> CheckResult:
+        """Check a text against this world; see `check_text`."""
+        return check_text(text, self.world, source, line, column)
+
+    def _parsed(self, text: str) -> Preconditions:
+        return self._texts.get(text, lambda: parse(text))
+
+    def _ground(self, car: CarModel) -> Ground:
+        if car not in self._grounds:
+            self._grounds[car] = Ground(self._scene, car)
+        return self._grounds[car]
+
+
+def warm_up() -> None:
+    """Compile the numerical kernels, or load them, so that the first request need not."""
+    agent, here = 'robot', Attitude(2.0, 5.0, 0.0)
+    car = CarModel(agent, wheelbase=0.5, max_steering_angle=0.5, radius=0.5, speed=1.0)
+    wall = Polygon('wall', ((4.9, 1.0), (5.1, 1.0), (5.1, 9.0), (4.9, 9.0)))
+    pillar = Circle('pillar', (8.0, 8.0), 0.5)
+    goal = WorldObject('goal', {'x': 8.0, 'y': 5.0})
+    bounds = Bounds(0.0, 0.0, 10.0, 10.0)
+    world = World('', '', bounds, {'goal': goal}, (wall, pillar), {agent: car})
+    planner = MotionPlanner(world)
+    text = '((agent robot)(object goal)(distance(robot, goal) <= 1))'
+    planner.satisfy(GeometricRequest(text, {agent: here}))
+    planner.advise(AdviceRequest((text,), {agent: here}))

@@ -1,0 +1,99 @@
+"""The scene as one kind of robot meets it: where it is free, where it gets to, how far it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motion_planner_node.planning.boxes import Boxes, Pyramid
+from motion_planner_node.robots.car import dubins_lengths
+from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.world.model import CarModel
+from motion_planner_node.world.scene import Scene
+
+#: Boxes on a side of the map where a grid over all of it is needed, free or not.
+WHOLE_MAP_BOXES = 96
+#: Places on the rim of an area whose nearest obstacles are named.
+RIM_PLACES = 256
+
+
+@dataclass(frozen=True, slots=True)
+class Area:
+    """A connected part of the free space: ``size`` [m2] and what bounds it."""
+
+    size: float
+    obstacles: tuple[str, ...]
+
+
+class Ground:
+    """Free space of one robot in one world; immutable, and shared by all its requests."""
+
+    def __init__(self, scene: Scene, car: CarModel):
+        self.scene = scene
+        self.car = car
+        self._free = scene.free_space(car.radius)
+        cells = self._free.cells
+        self.cells = Pyramid(Boxes.of(cells.x_lo, cells.x_hi, cells.y_lo, cells.y_hi))
+        #: Number of the connected part of the free space that each of ``cells`` is in, (n,).
+        self.parts = self._free.components_of(*self.cells.boxes.centres)
+        bounds = scene.world.bounds
+        whole = Boxes.tiling(
+            bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max, WHOLE_MAP_BOXES
+        )
+        self.everywhere = Pyramid(whole)
+
+    def is_free(self, states: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Which of the attitudes (n, 3) the robot can stand in, shape (n,)."""
+        return np.asarray(self.scene.is_free(states, self.car.radius))
+
+    def trouble(self, attitude: Attitude) -> str:
+        """What is wrong with standing at ``attitude``, as the end of a sentence; '' when nothing is."""
+        bounds = self.scene.world.bounds
+        here = f'({attitude.x:g}, {attitude.y:g})'
+        outside = max(
+            bounds.x_min - attitude.x,
+            attitude.x - bounds.x_max,
+            bounds.y_min - attitude.y,
+            attitude.y - bounds.y_max,
+        )
+        if outside > 0.0:
+            return f'{here} is {outside:.4g} m outside the map'
+        if self.is_free(np.array([[attitude.x, attitude.y, attitude.heading]]))[0]:
+            return ''
+        name, clearance = self.scene.nearest_obstacle(attitude.x, attitude.y)
+        if clearance < 0.0:
+            return f'{here} is {-clearance:.4g} m inside {name}'
+        return f'{here} is {clearance:.4g} m from {name}; the robot needs {self.car.radius:g} m'
+
+    def part_of(self, attitude: Attitude) -> int:
+        """Number of the connected part of the free space that ``attitude`` is in; -1 for none."""
+        return self._free.component_of(attitude.x, attitude.y)
+
+    def parts_of(self, states: NDArray[np.float64]) -> NDArray[np.int32]:
+        """Numbers of the connected parts of the free space that attitudes (n, 3) are in, (n,)."""
+        return self._free.components_of(states[:, 0], states[:, 1])
+
+    def estimates(self, start: Attitude, states: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Estimated lengths [m] of the motions from ``start`` to attitudes (n, 3), shape (n,).
+
+        The larger of the shortest motion without obstacles and the way round the obstacles.
+        """
+        field = self._free.distance_from(start.x, start.y)
+        around = field.at(states[:, 0], states[:, 1])
+        here = np.array([start.x, start.y, start.heading])
+        return np.asarray(np.maximum(around, dubins_lengths(here, states, self.car)))
+
+    def area(self, part: int) -> Area:
+        """Size and bounding obstacles of a connected part of the free space, biggest share first."""
+        boxes = self.cells.boxes.chosen(self.parts == part)
+        x, y = boxes.centres
+        near = self.scene.clearance(np.column_stack([x, y])) < (
+            self.car.radius + 1.5 * self._free.resolution
+        )
+        rim = np.flatnonzero(near)
+        rim = rim[:: max(1, len(rim) // RIM_PLACES)]
+        names = [self.scene.nearest_obstacle(x[index], y[index])[0] for index in rim]
+        by_share = sorted(set(names), key=lambda name: (-names.count(name), name))
+        return Area(len(x) * self._free.resolution**2, tuple(by_share))

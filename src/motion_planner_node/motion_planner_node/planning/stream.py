@@ -1,0 +1,188 @@
+"""The motions that answer one request, worked out as far as they were asked for."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from math import hypot, remainder, tau
+
+import numpy as np
+
+from motion_planner_node.codes import AttemptResult
+from motion_planner_node.errors import Stopped
+from motion_planner_node.parameters import Parameters
+from motion_planner_node.paths import plan_path
+from motion_planner_node.planning.ground import Ground
+from motion_planner_node.planning.problem import Problem
+from motion_planner_node.planning.proofs import Impossible, hopeful_cells, walled_off
+from motion_planner_node.planning.tried import Tried
+from motion_planner_node.robots.car import end_of
+from motion_planner_node.robots.motion import Attitude, Motion
+from motion_planner_node.satisfaction import destinations
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A motion that meets the request, where it ends, and what was tried since the one before."""
+
+    motion: Motion
+    end: Attitude
+    tried: Tried
+
+
+@dataclass(order=True, slots=True)
+class _Candidate:
+    """A destination; ``length`` [m] is an estimate until there is a motion."""
+
+    length: float
+    number: int
+    attitude: Attitude = field(compare=False)
+    motion: Motion | None = field(default=None, compare=False)
+
+
+class Stream:
+    """Motions to really different destinations, the shortest of a handful first.
+
+    What comes k-th depends on the problem, the seed and the parameters alone: not on who asked
+    before, nor on time.  Counts bound the work; ``should_stop`` only breaks it off.
+    """
+
+    def __init__(self, problem: Problem, ground: Ground, parameters: Parameters, seed: int):
+        self._problem = problem
+        self._ground = ground
+        self._parameters = parameters
+        self._seed = seed
+        self._restart()
+
+    def _restart(self) -> None:
+        self.tried = Tried(self._problem.agent)
+        self._found: list[Found] = []
+        self._candidates: list[_Candidate] = []
+        self._numbered = 0
+        self.proof: Impossible | None = None
+        self._more = self._generate()
+        self._broken = False
+
+    def find(self, alternative: int, should_stop: Callable[[], bool]) -> Found | None:
+        """Return the motion number ``alternative``, or None when there are not so many.
+
+        Then ``tried`` says what was looked at in vain, and ``proof``, where there is one, why no
+        motion can exist.
+
+        :raises Stopped: when ``should_stop`` said so; the next call starts over
+        """
+        if self._broken:
+            self._restart()
+        self._should_stop = should_stop
+        self._broken = True
+        while len(self._found) <= alternative:
+            found = next(self._more, None)
+            if found is None:
+                break
+            self._found.append(found)
+        self._broken = False
+        return self._found[alternative] if alternative < len(self._found) else None
+
+    def _generate(self) -> Iterator[Found]:
+        for round_number in range(self._parameters.rounds):
+            self._add_candidates(round_number)
+            if not self._candidates and not self._found:
+                self.proof = self.proof or self._prove()
+                if self.proof:
+                    return
+            planned: list[_Candidate] = []
+            while self._candidates or planned:
+                best = min(planned, default=None)
+                full = len(planned) >= self._parameters.paths_per_answer
+                if best and (full or not self._candidates or best < self._candidates[0]):
+                    planned.remove(best)
+                    yield self._answer(best)
+                    planned = [other for other in planned if self._is_new(other.attitude)]
+                    continue
+                candidate = heapq.heappop(self._candidates)
+                if self._is_new(candidate.attitude) and self._plan(candidate):
+                    planned.append(candidate)
+                if self.tried.counts[AttemptResult.NO_PATH] >= self._parameters.failures_per_answer:
+                    return
+
+    def _prove(self) -> Impossible | None:
+        hopeful = hopeful_cells(self._problem, self._ground)
+        return walled_off(self._problem, self._ground, hopeful)
+
+    def _answer(self, candidate: _Candidate) -> Found:
+        assert candidate.motion is not None
+        tried, self.tried = self.tried, Tried(self._problem.agent)
+        return Found(candidate.motion, candidate.attitude, tried)
+
+    def _add_candidates(self, round_number: int) -> None:
+        """Look for destinations, and keep those that the robot can stand in and may get to."""
+        self._check_time()
+        states = np.asarray(
+            destinations(
+                self._problem.program,
+                self._problem.start,
+                self._ground.scene.world.bounds,
+                np.random.default_rng([self._seed, round_number]),
+                self._parameters.destinations,
+            )
+        )
+        free = self._ground.is_free(states)
+        here = self._ground.part_of(self._problem.start)
+        near = self._ground.parts_of(states) == here
+        estimates = self._ground.estimates(self._problem.start, states)
+        for state, is_free, is_near, estimate in zip(states, free, near, estimates, strict=True):
+            attitude = Attitude(*(float(number) for number in state))
+            if not is_free:
+                trouble = self._ground.trouble(attitude)
+                self.tried.add(attitude, AttemptResult.IN_OBSTACLE, trouble)
+            elif not is_near:
+                reason = 'walled off from the start'
+                self.tried.add(attitude, AttemptResult.NO_PATH, reason)
+            else:
+                candidate = _Candidate(float(estimate), self._numbered, attitude)
+                heapq.heappush(self._candidates, candidate)
+            self._numbered += 1
+
+    def _plan(self, candidate: _Candidate) -> bool:
+        """Find a motion to the candidate and verify it where it ends."""
+        self._check_time()
+        start, goal = self._problem.start, candidate.attitude
+        if goal == start:
+            motion = Motion(self._problem.agent, start)
+        else:
+            seed = np.random.SeedSequence([self._seed, candidate.number]).generate_state(1)
+            result = plan_path(
+                self._ground.scene,
+                self._ground.car,
+                start,
+                [goal],
+                int(seed[0]),
+                self._should_stop,
+            )
+            if result.motion is None:
+                self._check_time()
+                self.tried.add(goal, AttemptResult.NO_PATH, result.reason)
+                return False
+            motion = result.motion
+        end = end_of(motion, self._ground.car)
+        missed = self._problem.program.unmet(end)
+        if missed:
+            self.tried.add(end, AttemptResult.NOT_SATISFIED, missed[0])
+            return False
+        candidate.motion, candidate.attitude, candidate.length = motion, end, motion.length
+        return True
+
+    def _is_new(self, attitude: Attitude) -> bool:
+        """Whether ``attitude`` really differs from all that was answered before."""
+        return not any(
+            hypot(attitude.x - found.end.x, attitude.y - found.end.y)
+            < self._parameters.alternative_distance
+            and abs(remainder(attitude.heading - found.end.heading, tau))
+            < self._parameters.alternative_heading
+            for found in self._found
+        )
+
+    def _check_time(self) -> None:
+        if self._should_stop():
+            raise Stopped

@@ -1,0 +1,1 @@
+"""Robot models: the car, its motions and their closed forms."""

@@ -1,0 +1,32 @@
+"""Arcs of constant curvature in closed form: the solution of the paper's car model."""
+
+from __future__ import annotations
+
+from math import ceil, cos, nextafter, pi, sin
+
+from motion_planner_node.robots.kernel import kernel
+
+_ALMOST_PI = nextafter(pi, 0.0)
+
+
+@kernel
+def wrap_angle(angle: float) -> float:
+    """``angle`` [rad] in (-pi, pi]; an angle that is there already is not changed."""
+    if -pi < angle <= pi:
+        return angle
+    wrapped = angle - 2.0 * pi * ceil((angle - pi) / (2.0 * pi))
+    return min(max(wrapped, -_ALMOST_PI), pi)
+
+
+@kernel
+def advance(
+    x: float, y: float, heading: float, curvature: float, length: float
+) -> tuple[float, float, float]:
+    """The attitude (x, y [m], unwrapped heading [rad]) after ``length`` [m] at ``curvature`` [1/m].
+
+    The chord of the arc has the heading of its middle, which stays accurate for tiny arcs.
+    """
+    half_turn = 0.5 * curvature * length
+    chord = length if half_turn == 0.0 else length * (sin(half_turn) / half_turn)
+    middle = heading + half_turn
+    return x + chord * cos(middle), y + chord * sin(middle), heading + 2.0 * half_turn

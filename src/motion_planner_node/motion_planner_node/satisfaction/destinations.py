@@ -1,0 +1,93 @@
+"""Destination attitudes for a program: from the start itself, and from restarts all over the map."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motion_planner_node.functions import Array
+from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.satisfaction.cells import possible_cells
+from motion_planner_node.satisfaction.descent import Descent, descend
+from motion_planner_node.satisfaction.program import Program
+from motion_planner_node.world.model import Bounds
+
+#: Descents for each destination that is wanted.
+_OVERSAMPLING = 2.5
+
+#: Share of the positions' spread that opposite headings count as.
+_HEADING_WEIGHT = 0.5
+
+#: Destinations nearer than this, in units of the spread, are the same one.
+_SAME = 1e-6
+
+
+def from_start(program: Program, start: Attitude) -> Descent:
+    """The descent from ``start`` alone, with which Algorithm 1 begins."""
+    return descend(program, np.array([[start.x, start.y, start.heading]]))
+
+
+def restarts(program: Program, bounds: Bounds, rng: np.random.Generator, count: int) -> Descent:
+    """``count`` descents from random attitudes, spread evenly over where they can succeed.
+
+    Line 13 of Algorithm 1. Where no place can, the attitudes are spread over the whole map.
+    """
+    cells = possible_cells(program, bounds)
+    if not len(cells):
+        cells = possible_cells(program, bounds, [])
+    chosen = ((np.arange(count) + rng.random()) * len(cells) / count).astype(np.int64)
+    along = rng.random((count, 3))
+    x = cells.x_lo[chosen] + along[:, 0] * (cells.x_hi - cells.x_lo)[chosen]
+    y = cells.y_lo[chosen] + along[:, 1] * (cells.y_hi - cells.y_lo)[chosen]
+    return descend(program, np.column_stack((x, y, np.pi * (1.0 - 2.0 * along[:, 2]))))
+
+
+def destinations(
+    program: Program, start: Attitude, bounds: Bounds, rng: np.random.Generator, count: int
+) -> Array:
+    """At most ``count`` different attitudes (k, 3) within ``bounds`` that satisfy the program.
+
+    The descent from ``start`` comes first if it succeeds; each further attitude is the one farthest
+    from those before it. Where too few descents end within ``bounds``, those are asked for like
+    constraints. A program that says nothing about the attitude is satisfied at ``start``
+    or nowhere.
+    """
+    first = _good(from_start(program, start), bounds)
+    if not program.depends_on_attitude:
+        return first
+    confined = program.confined(bounds)
+    if not len(first):
+        first = _good(from_start(confined, start), bounds)
+    tries = int(np.ceil(_OVERSAMPLING * count))
+    found = np.concatenate((first, _good(restarts(program, bounds, rng, tries), bounds)))
+    if len(found) < count:
+        found = np.concatenate((found, _good(restarts(confined, bounds, rng, tries), bounds)))
+    return found[_farthest_points(found, count)]
+
+
+def _good(descent: Descent, bounds: Bounds) -> Array:
+    """The states of ``descent`` that are satisfied and within ``bounds``."""
+    x, y = descent.states[:, 0], descent.states[:, 1]
+    inside = (x >= bounds.x_min) & (x <= bounds.x_max) & (y >= bounds.y_min) & (y <= bounds.y_max)
+    return descent.states[descent.satisfied & inside]
+
+
+def _farthest_points(states: Array, count: int) -> NDArray[np.int64]:
+    """Indices of ``count`` different states: the first, then always the one farthest from all."""
+    if not len(states):
+        return np.zeros(0, dtype=np.int64)
+    spread = max(float(np.max(np.ptp(states[:, :2], axis=0))), 1.0)
+    x, y = states[:, 0] / spread, states[:, 1] / spread
+    turned = 0.5 * _HEADING_WEIGHT * np.exp(1j * states[:, 2])
+    position = x + 1j * y
+    chosen = [0]
+    nearest = np.full(len(states), np.inf)
+    while len(chosen) < count:
+        last = chosen[-1]
+        apart = np.abs(position - position[last]) + np.abs(turned - turned[last])
+        np.minimum(nearest, apart, out=nearest)
+        farthest = int(np.argmax(nearest))
+        if nearest[farthest] <= _SAME:
+            break
+        chosen.append(farthest)
+    return np.array(chosen, dtype=np.int64)

@@ -1,0 +1,271 @@
+"""Ground preconditions compiled for the world and the start of one request."""
+
+from __future__ import annotations
+
+from math import isfinite, isnan, pi
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motion_planner_node.codes import Code
+from motion_planner_node.errors import Diagnostic, MotionPlannerError
+from motion_planner_node.functions import COMPONENTS, Array, Dual, Interval
+from motion_planner_node.language.check import check, is_periodic
+from motion_planner_node.language.printer import to_text
+from motion_planner_node.language.syntax import (
+    Command,
+    Constraint,
+    Number,
+    Preconditions,
+    Property,
+)
+from motion_planner_node.language.tape import Tape
+from motion_planner_node.requests import Residual
+from motion_planner_node.robots.motion import Attitude, GeometricState
+from motion_planner_node.satisfaction.cells import Cells, contradiction, possible
+from motion_planner_node.satisfaction.row import Row, wrap_angle
+from motion_planner_node.world.model import Bounds, World
+
+#: Violation up to which a constraint counts as met by a destination, in the constraint's unit, for
+#: coordinates of ordinary size. Strict comparators have none.
+TOLERANCE = 1e-9
+
+_NEVER_ZERO = float(np.nextafter(0.0, 1.0))
+
+
+class Program:
+    """What is to be satisfied by one agent, ready for batches of attitudes.
+
+    Attributes:
+        agent: label of the agent that moves
+        agents, objects: labels that the text states
+        assigns: whether there are commands
+        start: the state after the commands, from which the constraints are to be met
+        constraints: the constraints as texts
+        contradictions: why they cannot hold together, as far as that shows without the world
+        rows: the constraints as compiled, in the same order
+        tolerance: violation that a destination may have [unit of the constraint]
+    """
+
+    def __init__(
+        self,
+        preconditions: Preconditions,
+        world: World,
+        start: GeometricState,
+        agent: str,
+        contradictions: tuple[str, ...],
+    ) -> None:
+        self.agent = agent
+        self.agents = preconditions.agents
+        self.objects = preconditions.objects
+        self.assigns = preconditions.assigns
+        self.contradictions = contradictions
+        self._preconditions = preconditions
+        self._world = world
+        self._fields = {label: world.objects[label].fields for label in self.objects}
+        self.start = self.apply_commands(start)
+        places = self._fields | _components(self.start, self.agents)
+        self._tape = Tape(agent, places)
+        self.rows = tuple(self._row(item) for item in preconditions.constraints)
+        self.constraints = tuple(row.text for row in self.rows)
+        largest = max(
+            (abs(value) for fields in places.values() for value in fields.values()), default=0.0
+        )
+        self.tolerance = TOLERANCE + 16.0 * float(np.finfo(np.float64).eps) * largest
+
+    def apply_commands(self, state: GeometricState) -> GeometricState:
+        """The state after the commands, in their order; what they do not set stays as it is.
+
+        Raises MotionPlannerError: NO_START when an agent is set in part and was nowhere before, or
+        a component is read that is not set; INVALID_PRECONDITIONS when a value is not finite.
+        """
+        components = _components(state, tuple(state))
+        for command in self._preconditions.commands:
+            target, expression = command.arguments
+            assert isinstance(target, Property)
+            tape = Tape('', self._fields | components)
+            value = tape.constant(tape.slot(expression))
+            if value is None or not isfinite(value):
+                raise _not_assignable(command, value)
+            if target.name == 'heading':
+                value = wrap_angle(value)
+            components.setdefault(target.owner, {})[target.name] = value
+        for label, known in components.items():
+            missing = [name for name in COMPONENTS if name not in known]
+            if missing:
+                raise MotionPlannerError(
+                    Code.NO_START,
+                    f'the start has no attitude of {label} and no command sets its {missing[0]}',
+                )
+        return {label: Attitude(**known) for label, known in components.items()}
+
+    def confined(self, bounds: Bounds) -> Program:
+        """The program that also asks for a position within ``bounds``, after the commands."""
+        x, y = Property(self.agent, 'x'), Property(self.agent, 'y')
+        sides = (
+            Constraint(x, '>=', Number(bounds.x_min)),
+            Constraint(x, '<=', Number(bounds.x_max)),
+            Constraint(y, '>=', Number(bounds.y_min)),
+            Constraint(y, '<=', Number(bounds.y_max)),
+        )
+        preconditions = self._preconditions
+        asked = Preconditions(preconditions.statements, (*preconditions.constraints, *sides))
+        return Program(asked, self._world, self.start, self.agent, self.contradictions)
+
+    def functions(
+        self, states: Array, *, derivatives: Literal['none', 'truncated', 'full'] = 'none'
+    ) -> list[Dual]:
+        """The functions f_i of ``states`` (n, 3): left minus right side, sign reversed for >=.
+
+        A constraint holds where its function is at most 0 (below 0 if strict, 0 if an equality).
+        Angles are the difference of the sides wrapped to [-pi, pi]. Undefined ones are NaN.
+        """
+        columns = np.ascontiguousarray(states.T)
+        if derivatives == 'none':
+            state = [Dual(column) for column in columns]
+        else:
+            unit = np.eye(3)
+            ones = np.ones((1, len(states)))
+            state = [Dual(column, unit[:, i : i + 1] * ones) for i, column in enumerate(columns)]
+        with np.errstate(all='ignore'):
+            values = self._tape.run(state, Dual.constant, truncated=derivatives == 'truncated')
+            return [row.function(values[row.left], values[row.right]) for row in self.rows]
+
+    def bounds(self, x: Interval, y: Interval) -> list[Interval]:
+        """Bounds of the functions f_i over boxes of positions, whatever the heading."""
+        heading = Interval(np.float64(-pi), np.float64(pi))
+        with np.errstate(all='ignore'):
+            values = self._tape.run((x, y, heading), Interval.constant)
+            return [row.bounds(values[row.left], values[row.right]) for row in self.rows]
+
+    def position_cells(
+        self, x_lo: Array, x_hi: Array, y_lo: Array, y_hi: Array
+    ) -> NDArray[np.bool_]:
+        """Which boxes of positions (n,) may hold a destination: False where provably none does."""
+        return possible(self, Cells(x_lo, x_hi, y_lo, y_hi))
+
+    def contradiction(self, bounds: Bounds) -> str | None:
+        """A sentence when provably no attitude within ``bounds`` satisfies the program."""
+        return contradiction(self, bounds)
+
+    def violations(self, states: Array) -> Array:
+        """By how much ``states`` (n, 3) miss each of the m constraints: (n, m), 0 where it holds.
+
+        An undefined angle is off by pi, any other undefined number by infinity.
+        """
+        result = np.empty((len(states), len(self.rows)))
+        for index, (row, function) in enumerate(
+            zip(self.rows, self.functions(states), strict=True)
+        ):
+            value = function.value
+            if row.is_equality:
+                missed = np.abs(value)
+            else:
+                missed = np.maximum(value, _NEVER_ZERO if row.is_strict else 0.0)
+                missed = np.where(value < 0.0, 0.0, missed)
+            result[:, index] = np.where(np.isnan(value), pi if row.periodic else np.inf, missed)
+        return result
+
+    def satisfied(self, states: Array) -> NDArray[np.bool_]:
+        """Which of ``states`` (n, 3) meet all constraints, within ``tolerance`` unless strict."""
+        return self.meets(self.violations(states))
+
+    def meets(self, violations: Array) -> NDArray[np.bool_]:
+        """Which of the rows of ``violations`` (n, m) mean that all constraints are met."""
+        allowed = np.array([0.0 if row.is_strict else self.tolerance for row in self.rows])
+        return np.asarray((violations <= allowed).all(axis=1))
+
+    def residuals(self, attitude: Attitude, tolerance: float = 1e-6) -> tuple[Residual, ...]:
+        """How well ``attitude`` meets each constraint; strict ones allow no ``tolerance``."""
+        state = np.array([[attitude.x, attitude.y, attitude.heading]])
+        (missed,) = self.violations(state)
+        return tuple(
+            Residual(row.text, float(by), bool(by <= (0.0 if row.is_strict else tolerance)))
+            for row, by in zip(self.rows, missed, strict=True)
+        )
+
+    def unmet(self, attitude: Attitude) -> tuple[str, ...]:
+        """A sentence for each constraint that ``attitude`` misses, with the value that it has."""
+        state = np.array([[attitude.x, attitude.y, attitude.heading]])
+        columns = [Dual(column) for column in state.T]
+        with np.errstate(all='ignore'):
+            values = self._tape.run(columns, Dual.constant)
+        return tuple(
+            f'{row.text} not met: {_shown(values[row.left], row)}'
+            for row, residual in zip(self.rows, self.residuals(attitude), strict=True)
+            if not residual.satisfied
+        )
+
+    @property
+    def depends_on_attitude(self) -> bool:
+        """Whether any constraint speaks of the attitude of the agent that moves."""
+        return any(
+            self._tape.constant(slot) is None for row in self.rows for slot in (row.left, row.right)
+        )
+
+    def _row(self, constraint: Constraint) -> Row:
+        return Row(
+            text=to_text(constraint),
+            comparator=constraint.comparator,
+            left=self._tape.slot(constraint.left),
+            right=self._tape.slot(constraint.right),
+            periodic=is_periodic(constraint, self.agents),
+        )
+
+
+def compile_program(
+    preconditions: Preconditions, world: World, start: GeometricState, agent: str = ''
+) -> Program:
+    """Compile ground preconditions for ``agent``, or else for the first one that they state.
+
+    Raises MotionPlannerError with all that ``language.check`` finds except contradictions, which
+    the program itself proves (``contradiction``); UNKNOWN_AGENT when ``agent`` is not stated;
+    NO_START when ``start`` lacks a stated agent that no command sets.
+    """
+    if preconditions.variables:
+        names = ', '.join(sorted(preconditions.variables))
+        message = f'the preconditions are not ground: {names}'
+        raise MotionPlannerError(Code.INVALID_PRECONDITIONS, message)
+    found = check(preconditions, world)
+    errors = [diagnostic for diagnostic in found if diagnostic.code is not Code.CONTRADICTION]
+    if errors:
+        raise MotionPlannerError.from_diagnostics(errors)
+    stated = preconditions.agents
+    if not stated:
+        raise MotionPlannerError(
+            Code.INVALID_PRECONDITIONS, 'no statement (agent ...) says which robot acts'
+        )
+    if agent and agent not in stated:
+        message = f'the preconditions do not state (agent {agent}), only {", ".join(stated)}'
+        raise MotionPlannerError(Code.UNKNOWN_AGENT, message)
+    reasons = tuple(diagnostic.message for diagnostic in found)
+    program = Program(preconditions, world, start, agent or stated[0], reasons)
+    for label in stated:
+        if label not in program.start:
+            raise MotionPlannerError(Code.NO_START, f'the start has no attitude of {label}')
+    return program
+
+
+def _components(state: GeometricState, labels: tuple[str, ...]) -> dict[str, dict[str, float]]:
+    return {
+        label: {name: getattr(state[label], name) for name in COMPONENTS}
+        for label in labels
+        if label in state
+    }
+
+
+def _shown(side: Dual, row: Row) -> str:
+    value = float(np.ravel(side.value)[0])
+    if isnan(value):
+        return 'undefined'
+    return f'{wrap_angle(value) if row.periodic else value:.6g}'
+
+
+def _not_assignable(command: Command, value: float | None) -> MotionPlannerError:
+    text = to_text(command)
+    if value is None or isnan(value):
+        return MotionPlannerError(Code.NO_START, f'{text} reads what nothing has set before')
+    return MotionPlannerError.from_diagnostics(
+        [Diagnostic(f'{text} would set {value}', command.line, command.column, text)]
+    )

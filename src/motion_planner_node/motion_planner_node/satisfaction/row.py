@@ -1,0 +1,61 @@
+"""A constraint rewritten as a function that must not be positive."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+
+from motion_planner_node.functions import Array, Dual, Interval
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One constraint: the slots of its sides on the tape, and whether it equates angles."""
+
+    text: str
+    comparator: str
+    left: int
+    right: int
+    periodic: bool
+
+    @property
+    def is_equality(self) -> bool:
+        """Whether both signs of the function are penalised (equation 3)."""
+        return self.comparator == '='
+
+    @property
+    def is_strict(self) -> bool:
+        """Whether equality of the sides does not do."""
+        return self.comparator in {'<', '>'}
+
+    @property
+    def is_reversed(self) -> bool:
+        """Whether the function is the right minus the left side."""
+        return self.comparator in {'>', '>='}
+
+    def function(self, left: Dual, right: Dual) -> Dual:
+        """The paper's f: left minus right side, reversed for >=; angles wrapped to [-pi, pi]."""
+        function = right - left if self.is_reversed else left - right
+        if self.periodic:
+            turns = np.round(function.value / (2.0 * pi))
+            return Dual(function.value - 2.0 * pi * turns, function.gradient)
+        return function
+
+    def bounds(self, left: Interval, right: Interval) -> Interval:
+        """Bounds of ``function``."""
+        if self.periodic:
+            return Interval(np.float64(-pi), np.float64(pi))
+        return right - left if self.is_reversed else left - right
+
+
+def wrap(angles: Array) -> Array:
+    """The same angles [rad] in (-pi, pi]."""
+    result = angles - 2.0 * pi * np.round(angles / (2.0 * pi))
+    return np.where(result <= -pi, pi, np.minimum(result, pi))
+
+
+def wrap_angle(angle: float) -> float:
+    """The same angle [rad] in (-pi, pi]."""
+    return float(wrap(np.array(angle)))

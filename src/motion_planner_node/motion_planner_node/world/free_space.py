@@ -1,0 +1,155 @@
+"""Where the disc of a robot can be at all, and how far it is to drive there."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from math import ceil, sqrt
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from motion_planner_node.world.regions import components, open_cells, travel_distances
+from motion_planner_node.world.shapes import Shapes
+
+#: Cells on the shorter side of the map, as far as the number of all cells allows.
+CELLS_ON_SHORTER_SIDE = 300
+MOST_CELLS = 250_000
+#: Cells of the grid for estimates of distance, which is coarser to be quick.
+TRAVEL_CELLS = 20_000
+#: Distance fields that are kept, one per start.
+MOST_FIELDS = 32
+
+
+class _Grid:
+    """Square cells over the map, some of them open."""
+
+    def __init__(self, shapes: Shapes, margin: float, on_shorter_side: int, most: int) -> None:
+        x_min, y_min, x_max, y_max = (float(value) for value in shapes.bounds)
+        width, height = x_max - x_min, y_max - y_min
+        self.corner = (x_min, y_min)
+        self.cell = max(
+            min(width, height) / on_shorter_side,
+            sqrt(width * height / most),
+            max(width, height) * 2.0 / most,
+        )
+        self.columns = ceil(width / self.cell)
+        self.rows = ceil(height / self.cell)
+        self.open = open_cells(shapes, margin, self.cell, self.columns, self.rows)
+
+    def indices(
+        self, x: NDArray[np.float64], y: NDArray[np.float64]
+    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Rows and columns of the cells at points, those outside the map moved to its edge."""
+        column = np.floor((x - self.corner[0]) / self.cell)
+        row = np.floor((y - self.corner[1]) / self.cell)
+        return (
+            np.clip(np.nan_to_num(row), 0, self.rows - 1).astype(np.int64),
+            np.clip(np.nan_to_num(column), 0, self.columns - 1).astype(np.int64),
+        )
+
+
+class Cells:
+    """Boxes of the map [m]: arrays ``x_lo``, ``x_hi``, ``y_lo``, ``y_hi`` of shape (n,)."""
+
+    def __init__(self, grid: _Grid, chosen: NDArray[np.bool_]) -> None:
+        rows, columns = np.nonzero(chosen)
+        self.x_lo = grid.corner[0] + columns * grid.cell
+        self.y_lo = grid.corner[1] + rows * grid.cell
+        self.x_hi = self.x_lo + grid.cell
+        self.y_hi = self.y_lo + grid.cell
+
+    def __len__(self) -> int:
+        return len(self.x_lo)
+
+
+class TravelField:
+    """Estimated lengths [m] of motions between one point and all others, obstacles regarded.
+
+    The turning radius is not; see ``robots.car.dubins_lengths`` for a bound that does.
+    """
+
+    def __init__(self, grid: _Grid, distances: NDArray[np.float64], x: float, y: float) -> None:
+        self._grid = grid
+        self._distances = np.pad(distances, 1, constant_values=np.inf)
+        self._origin = (x, y)
+
+    def at(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+        """Estimates [m] at points, of the shape of ``x`` and ``y``; infinite where no way leads.
+
+        Never less than the straight distance.
+        """
+        x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
+        grid = self._grid
+        column = np.clip((x - grid.corner[0]) / grid.cell + 0.5, 0.5, grid.columns + 0.5)
+        row = np.clip((y - grid.corner[1]) / grid.cell + 0.5, 0.5, grid.rows + 0.5)
+        i = np.floor(column).astype(np.int64)
+        j = np.floor(row).astype(np.int64)
+        total, weights = np.zeros(x.shape), np.zeros(x.shape)
+        for b, a in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            distances = self._distances[j + b, i + a]
+            weight = np.abs(1 - b - (row - j)) * np.abs(1 - a - (column - i))
+            weight = np.where(np.isfinite(distances), weight + 1e-12, 0.0)
+            total += weight * np.where(weight > 0.0, distances, 0.0)
+            weights += weight
+        estimate = np.divide(total, weights, out=np.full(x.shape, np.inf), where=weights > 0.0)
+        straight = np.hypot(x - self._origin[0], y - self._origin[1])
+        return np.asarray(np.maximum(estimate, straight))
+
+
+class FreeSpace:
+    """A sound over-approximation of the places where a disc of clearance ``margin`` [m] is free.
+
+    What is not connected here is not connected in truth.  Gaps of less than twice the margin are
+    closed as far as ``resolution`` lets them be seen.
+    """
+
+    def __init__(self, shapes: Shapes, margin: float) -> None:
+        self._grid = _Grid(shapes, margin, CELLS_ON_SHORTER_SIDE, MOST_CELLS)
+        self._labels = components(self._grid.open)
+        self._travel_grid = _Grid(shapes, margin, CELLS_ON_SHORTER_SIDE // 2, TRAVEL_CELLS)
+        self._fields: OrderedDict[tuple[float, float], TravelField] = OrderedDict()
+
+    @property
+    def resolution(self) -> float:
+        """Side [m] of a cell."""
+        return self._grid.cell
+
+    @property
+    def cells(self) -> Cells:
+        """All cells that may be free."""
+        return Cells(self._grid, self._grid.open)
+
+    def component_of(self, x: float, y: float) -> int:
+        """Number of the component that holds (x, y) [m]; -1 when it is not free."""
+        return int(self.components_of([x], [y])[0])
+
+    def components_of(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.int32]:
+        """Numbers of the components at points of shape (n,); -1 where they are not free."""
+        xs, ys = np.asarray(x, float), np.asarray(y, float)
+        grid = self._grid
+        labels = self._labels[grid.indices(xs, ys)]
+        dx, dy = (xs - grid.corner[0]) / grid.cell, (ys - grid.corner[1]) / grid.cell
+        inside = (dx >= 0) & (dx <= grid.columns) & (dy >= 0) & (dy <= grid.rows)
+        return np.where(inside, labels, np.int32(-1))
+
+    def cells_reachable_from(self, x: float, y: float) -> Cells:
+        """The cells outside of which no motion from (x, y) [m] can ever get."""
+        component = self.component_of(x, y)
+        return Cells(self._grid, (self._labels == component) & self._grid.open)
+
+    def distance_from(self, x: float, y: float) -> TravelField:
+        """Estimated lengths [m] of motions between (x, y) and everywhere; kept for the next call."""
+        key = (x, y)
+        field = self._fields.get(key)
+        if field is None:
+            grid = self._travel_grid
+            distances = travel_distances(
+                grid.open, grid.cell, float(x - grid.corner[0]), float(y - grid.corner[1])
+            )
+            field = TravelField(grid, distances, x, y)
+            self._fields[key] = field
+            while len(self._fields) > MOST_FIELDS:
+                self._fields.popitem(last=False)
+        else:
+            self._fields.move_to_end(key)
+        return field

@@ -1,0 +1,79 @@
+"""The world as the motion planner knows it: immutable, in metres, frame ``map``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import tan
+
+from motion_planner_node.robots.motion import Attitude
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """The map's rectangle [m]; a robot's disc has to stay inside."""
+
+    x_min: float
+    y_min: float
+    x_max: float
+    y_max: float
+
+
+@dataclass(frozen=True, slots=True)
+class WorldObject:
+    """A static thing that preconditions can speak of; ``x`` and ``y`` [m] are always fields."""
+
+    label: str
+    fields: Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Polygon:
+    """A simple polygon, closed implicitly: the corners [m] in order."""
+
+    name: str
+    corners: tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """A disc: its centre and radius [m]."""
+
+    name: str
+    center: tuple[float, float]
+    radius: float
+
+
+Obstacle = Polygon | Circle
+
+
+@dataclass(frozen=True, slots=True)
+class CarModel:
+    """The paper's car: forward only, steering angle one of -max, 0, +max [rad].
+
+    ``radius`` [m] is the disc around (x, y) that has to stay clear of obstacles and in the map.
+    """
+
+    label: str
+    wheelbase: float
+    max_steering_angle: float
+    radius: float
+    speed: float
+    start: Attitude | None = None
+
+    @property
+    def turning_radius(self) -> float:
+        """Radius [m] of the circle driven at the largest steering angle."""
+        return self.wheelbase / tan(self.max_steering_angle)
+
+
+@dataclass(frozen=True, slots=True)
+class World:
+    """A snapshot; ``revision`` is a digest of the content, so equal worlds have equal revisions."""
+
+    source: str
+    revision: str
+    bounds: Bounds
+    objects: Mapping[str, WorldObject]
+    obstacles: tuple[Obstacle, ...]
+    robots: Mapping[str, CarModel]

@@ -1,0 +1,21 @@
+"""The digest by which equal worlds are known to be equal."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import asdict
+
+from motion_planner_node.world.model import World
+
+
+def revision_of(world: World) -> str:
+    """The first 16 hexadecimal digits of SHA-256 over the content, not over source or layout."""
+    content = {
+        'bounds': asdict(world.bounds),
+        'objects': {label: dict(thing.fields) for label, thing in world.objects.items()},
+        'obstacles': [asdict(obstacle) for obstacle in world.obstacles],
+        'robots': {label: asdict(robot) for label, robot in world.robots.items()},
+    }
+    canonical = json.dumps(content, sort_keys=True, separators=(',', ':'))
+    return hashlib.sha256(canonical.encode()).hexdigest()[:16]

@@ -1,0 +1,111 @@
+from __future__ import annotations
+
+from math import hypot
+
+import numpy as np
+import pytest
+
+from motion_planner_node.world import Scene
+from motion_planner_node.world.model import Bounds, Circle, Obstacle, Polygon, World
+
+RADIUS = 5.0
+
+
+def scene_of(*obstacles: Obstacle, bounds: Bounds = Bounds(0, 0, 800, 600)) -> Scene:
+    return Scene(World('', '', bounds, {}, obstacles, {}))
+
+
+def walls_with_gap(gap: float) -> tuple[Polygon, Polygon]:
+    low = Polygon('low', ((400, 0), (410, 0), (410, 300), (400, 300)))
+    high = Polygon('high', ((400, 300 + gap), (410, 300 + gap), (410, 600), (400, 600)))
+    return low, high
+
+
+@pytest.mark.parametrize(('gap', 'open_'), [(0.0, False), (9.0, False), (9.8, False), (10.2, True)])
+def test_a_gap_narrower_than_the_robot_is_closed(gap: float, open_: bool) -> None:
+    space = scene_of(*walls_with_gap(gap)).free_space(RADIUS)
+    west, east = space.component_of(100, 100), space.component_of(700, 500)
+    assert west >= 0
+    assert east >= 0
+    assert (west == east) is open_
+
+
+def test_every_free_place_is_in_an_open_cell() -> None:
+    rng = np.random.default_rng(3)
+    discs = [
+        Circle(f'disc{i}', (float(x), float(y)), float(r))
+        for i, (x, y, r) in enumerate(rng.uniform([0, 0, 5], [800, 600, 60], (25, 3)))
+    ]
+    scene = scene_of(*discs)
+    points = rng.uniform([0, 0], [800, 600], (20000, 2))
+    free = scene.clearance(points) >= RADIUS
+    components = scene.free_space(RADIUS).components_of(points[:, 0], points[:, 1])
+    assert free.any()
+    assert (components[free] >= 0).all()
+
+
+def test_neighbours_with_room_between_them_are_in_one_component() -> None:
+    """Two free places are joined when the straight line between them is free all along."""
+    rng = np.random.default_rng(4)
+    discs = [
+        Circle(f'disc{i}', (float(x), float(y)), 30.0)
+        for i, (x, y) in enumerate(rng.uniform([0, 0], [800, 600], (40, 2)))
+    ]
+    scene = scene_of(*discs)
+    space = scene.free_space(RADIUS)
+    seen = 0
+    for start, end in rng.uniform([0, 0], [800, 600], (2000, 2, 2)):
+        line = start + np.linspace(0.0, 1.0, 200)[:, None] * (end - start)
+        if (scene.clearance(line) >= RADIUS).all():
+            seen += 1
+            assert space.component_of(*start) == space.component_of(*end)
+    assert seen > 100
+
+
+def test_cells_reachable_from_a_walled_in_place_stay_inside_the_wall() -> None:
+    ring = [
+        Polygon('south', ((300, 200), (500, 200), (500, 210), (300, 210))),
+        Polygon('north', ((300, 390), (500, 390), (500, 400), (300, 400))),
+        Polygon('west', ((300, 200), (310, 200), (310, 400), (300, 400))),
+        Polygon('east', ((490, 200), (500, 200), (500, 400), (490, 400))),
+    ]
+    space = scene_of(*ring).free_space(RADIUS)
+    inside = space.cells_reachable_from(400, 300)
+    assert len(inside) > 0
+    assert inside.x_lo.min() > 305
+    assert inside.x_hi.max() < 495
+    assert inside.y_lo.min() > 205
+    assert inside.y_hi.max() < 395
+    assert len(space.cells_reachable_from(305, 205)) == 0
+    assert len(inside) < len(space.cells)
+    assert np.isinf(space.distance_from(400, 300).at(100, 100))
+
+
+def test_distance_in_the_open_is_the_straight_one() -> None:
+    field = scene_of().free_space(RADIUS).distance_from(100, 100)
+    xs, ys = np.meshgrid(np.linspace(10, 790, 40), np.linspace(10, 590, 30))
+    straight = np.hypot(xs - 100, ys - 100)
+    assert field.at(xs, ys).shape == xs.shape
+    assert (field.at(xs, ys) >= straight).all()
+    assert (field.at(xs, ys) <= 1.03 * straight + 8).all()
+
+
+def test_distance_goes_round_a_wall() -> None:
+    wall = Polygon('wall', ((400, 0), (410, 0), (410, 500), (400, 500)))
+    field = scene_of(wall).free_space(RADIUS).distance_from(300, 100)
+    true = hypot(95, 405) + 20 + hypot(85, 405)
+    assert float(field.at(500, 100)) == pytest.approx(true, rel=0.03)
+
+
+def test_fields_are_kept_and_places_outside_the_map_are_not_free() -> None:
+    space = scene_of().free_space(RADIUS)
+    assert space.distance_from(10, 20) is space.distance_from(10, 20)
+    assert space.component_of(-1, 20) == -1
+    assert space.component_of(float('nan'), 20) == -1
+    assert space.component_of(2, 20) == -1
+
+
+def test_a_robot_larger_than_the_map_is_nowhere_free() -> None:
+    space = scene_of(bounds=Bounds(0, 0, 8, 1e4)).free_space(RADIUS)
+    assert len(space.cells) == 0
+    assert space.component_of(4, 50) == -1

@@ -1,0 +1,149 @@
+"""Clearance and collision against brute force with another library's geometry."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from motion_planner_node.robots.car import sample
+from motion_planner_node.robots.motion import Attitude, Motion, Segment
+from motion_planner_node.world import MAP_EDGE, Scene
+from motion_planner_node.world.model import Bounds, CarModel, Circle, Obstacle, Polygon, World
+
+CAR = CarModel('rover', wheelbase=8.0, max_steering_angle=0.5, radius=5.0, speed=2.0)
+BOUNDS = Bounds(-20.0, -10.0, 120.0, 110.0)
+SPACING = 0.02
+
+
+def world_of(*obstacles: Obstacle, bounds: Bounds = BOUNDS) -> World:
+    return World('', '', bounds, {}, obstacles, {'rover': CAR})
+
+
+@st.composite
+def polygons(draw: st.DrawFn) -> Polygon:
+    """Star-shaped and often not convex."""
+    x, y = draw(st.floats(0, 100)), draw(st.floats(0, 100))
+    count = draw(st.integers(3, 8))
+    turn = draw(st.floats(0, 2 * pi))
+    corners = []
+    for i in range(count):
+        reach = draw(st.floats(1.0, 25.0))
+        angle = turn + 2 * pi * i / count
+        corners.append((x + reach * cos(angle), y + reach * sin(angle)))
+    return Polygon('polygon', tuple(corners))
+
+
+circles = st.builds(
+    Circle, st.just('circle'), st.tuples(st.floats(0, 100), st.floats(0, 100)), st.floats(0.5, 20)
+)
+worlds = st.lists(st.one_of(polygons(), circles), max_size=4).map(lambda o: world_of(*o))
+attitudes = st.builds(Attitude, st.floats(-20, 120), st.floats(-10, 110), st.floats(-pi, pi))
+steering_angles = st.sampled_from([-0.5, 0.0, 0.5])
+motions = st.builds(
+    Motion,
+    st.just('rover'),
+    attitudes,
+    st.lists(st.builds(Segment, steering_angles, st.floats(0.01, 90.0)), max_size=3).map(tuple),
+)
+
+
+def true_clearances(world: World, points: np.ndarray) -> np.ndarray:
+    """Signed distances by shapely, discs by their centres."""
+    b = world.bounds
+    x, y = points[:, 0], points[:, 1]
+    result = np.minimum.reduce([x - b.x_min, b.x_max - x, y - b.y_min, b.y_max - y])
+    spots = shapely.points(points[:, :2])
+    for obstacle in world.obstacles:
+        if isinstance(obstacle, Circle):
+            distance = np.hypot(x - obstacle.center[0], y - obstacle.center[1]) - obstacle.radius
+        else:
+            polygon = shapely.Polygon(obstacle.corners)
+            distance = shapely.distance(spots, polygon.exterior)
+            distance = np.where(shapely.contains(polygon, spots), -distance, distance)
+        result = np.minimum(result, distance)
+    return result
+
+
+@settings(deadline=None)
+@given(worlds, st.lists(st.tuples(st.floats(-40, 140), st.floats(-30, 130)), min_size=1))
+def test_clearance_is_the_distance_to_the_nearest_boundary(
+    world: World, points: list[tuple[float, float]]
+) -> None:
+    array = np.array(points)
+    assert Scene(world).clearance(array) == pytest.approx(true_clearances(world, array), abs=1e-9)
+
+
+@settings(max_examples=400, deadline=None)
+@given(worlds, motions)
+def test_motion_is_free_exactly_when_all_its_points_are(world: World, motion: Motion) -> None:
+    least = true_clearances(world, sample(motion, CAR, SPACING)).min()
+    free = Scene(world).motion_is_free(motion, CAR)
+    if free:
+        assert least >= CAR.radius - 1e-8
+    else:
+        assert least < CAR.radius + SPACING / 2
+
+
+@settings(max_examples=200, deadline=None)
+@given(polygons(), attitudes, steering_angles, st.floats(1.0, 95.0), st.floats(-1e-6, 1e-6))
+def test_the_least_distance_of_an_arc_is_exact(
+    polygon: Polygon, start: Attitude, steering_angle: float, length: float, change: float
+) -> None:
+    """A disc as large as the distance found by refinement fits, and one a little larger not."""
+    assume(abs(change) > 1e-8)
+    world = world_of(polygon, bounds=Bounds(-1e4, -1e4, 1e4, 1e4))
+    motion = Motion('rover', start, (Segment(steering_angle, length),))
+    points = sample(motion, CAR, length / 2000)
+    outline = shapely.Polygon(polygon.corners)
+    distances = shapely.distance(outline, shapely.points(points[:, :2]))
+    nearest = int(np.argmin(distances))
+    first, last = max(nearest - 1, 0), min(nearest + 1, len(points) - 1)
+    near = Motion(
+        'rover',
+        Attitude(*points[first]),
+        (Segment(steering_angle, length * (last - first) / (len(points) - 1)),),
+    )
+    close = sample(near, CAR, near.length / 20000)
+    least = shapely.distance(outline, shapely.points(close[:, :2])).min()
+    assume(least > 0.01)
+    car = CarModel('rover', 8.0, 0.5, radius=float(least + change), speed=1.0)
+    assert Scene(world).motion_is_free(motion, car) is (change < 0)
+
+
+@settings(deadline=None)
+@given(worlds, attitudes)
+def test_nearest_obstacle_has_the_clearance(world: World, attitude: Attitude) -> None:
+    name, clearance = Scene(world).nearest_obstacle(attitude.x, attitude.y)
+    point = np.array([[attitude.x, attitude.y]])
+    alone = world_of(*(o for o in world.obstacles if o.name == name))
+    assert clearance == pytest.approx(true_clearances(alone, point)[0], abs=1e-9)
+    assert name in {MAP_EDGE, 'polygon', 'circle'}
+
+
+def test_a_disc_may_touch() -> None:
+    wall = Polygon('wall', ((50, 0), (60, 0), (60, 100), (50, 100)))
+    scene = Scene(world_of(wall))
+    along_the_wall = Motion('rover', Attitude(45, 10, pi / 2), (Segment(0.0, 80.0),))
+    assert scene.motion_is_free(along_the_wall, CAR)
+    assert scene.is_free(
+        [[45, 10, 0], [45.001, 10, 0], [-15, 0, 0], [-15.001, 0, 0]], 5.0
+    ).tolist() == [
+        True,
+        False,
+        True,
+        False,
+    ]
+
+
+def test_a_point_robot_does_not_pass_through_a_corner() -> None:
+    point = CarModel('rover', 8.0, 0.5, radius=0.0, speed=1.0)
+    diamond = Polygon('diamond', ((50, 50), (60, 40), (70, 50), (60, 60)))
+    through = Motion('rover', Attitude(10, 50, 0.0), (Segment(0.0, 90.0),))
+    past = Motion('rover', Attitude(10, 60.01, 0.0), (Segment(0.0, 90.0),))
+    assert not Scene(world_of(diamond)).motion_is_free(through, point)
+    assert Scene(world_of(diamond)).motion_is_free(past, point)
