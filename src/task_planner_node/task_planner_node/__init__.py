@@ -1,0 +1,1 @@
+"""GeoHTN's task planner: an HTN search whose operators carry geometric preconditions."""

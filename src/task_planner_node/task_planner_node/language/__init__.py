@@ -1,0 +1,8 @@
+"""The mission language: text to a checked model, every error with its file, line and column."""
+
+from task_planner_node.language.checks import check_mission
+from task_planner_node.language.domain import read_domain
+from task_planner_node.language.problem import read_problem
+from task_planner_node.language.source import Source, load_source
+
+__all__ = ['Source', 'check_mission', 'load_source', 'read_domain', 'read_problem']

@@ -1,0 +1,15 @@
+"""Which known word somebody probably meant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+MOST_COMPARED = 2000
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """A half-sentence ``; did you mean ...?`` to append, or an empty text."""
+    candidates = sorted(set(known) - {word})[:MOST_COMPARED]
+    close = get_close_matches(word, candidates, n=1, cutoff=0.7)
+    return f'; did you mean {close[0]}?' if close else ''

@@ -1,0 +1,154 @@
+"""The motion planner as the search sees it, behind its three services."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from geohtn_msgs.msg import AdviceRequest, GeometricRequest
+from geohtn_msgs.srv import Advise, CheckPreconditions, SatisfyPreconditions
+from rclpy.client import Client
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+
+from task_planner_node.conversions import (
+    advice_from_message,
+    answer_from_message,
+    diagnostic_from_message,
+    states_from_token,
+)
+from task_planner_node.errors import Cancelled, GeometryUnavailable, LimitReached
+from task_planner_node.oracle import Advice, Answer, Query, TextCheck, Token
+from task_planner_node.parameters import Parameters
+
+POLL = 0.05
+
+
+class MotionPlannerClient(Node):
+    """Clients with an executor and a thread of their own: calls from any thread, fast and without deadlock.
+
+    Clients: satisfy_preconditions, advise, check_preconditions.
+    """
+
+    def __init__(self, context: Context) -> None:
+        super().__init__('task_planner_client', context=context, start_parameter_services=False)
+        self.satisfy = self.create_client(SatisfyPreconditions, 'satisfy_preconditions')
+        self.advise = self.create_client(Advise, 'advise')
+        self.check = self.create_client(CheckPreconditions, 'check_preconditions')
+        self._spinner = SingleThreadedExecutor(context=context)
+        self._spinner.add_node(self)
+        self._thread = threading.Thread(target=self._spin, daemon=True)
+        self._thread.start()
+
+    def _spin(self) -> None:
+        try:
+            self._spinner.spin()
+        except ExternalShutdownException:
+            return
+
+    def close(self) -> None:
+        """Stop the thread and destroy the clients."""
+        self._spinner.shutdown()
+        self._thread.join(timeout=2.0)
+        self.destroy_node()
+
+
+@dataclass(frozen=True)
+class RemoteOracle:
+    """The Oracle of one mission.
+
+    ``should_stop`` ends a wait with Cancelled, ``deadline`` (time.monotonic) with LimitReached.
+    """
+
+    client: MotionPlannerClient
+    parameters: Parameters
+    mission: str
+    world_revision: str
+    seed: int
+    deadline: float
+    should_stop: Callable[[], bool]
+
+    def check(self, text: str, source: str, line: int, column: int) -> TextCheck:
+        """Oracle.check."""
+        request = CheckPreconditions.Request(
+            preconditions=text, source=source, line=line, column=column
+        )
+        response = self._call(self.client.check, request)
+        remarks = tuple(diagnostic_from_message(d) for d in response.diagnostics)
+        return TextCheck(bool(response.assigns), remarks)
+
+    def satisfy(self, query: Query) -> Answer:
+        """Oracle.satisfy."""
+        request = GeometricRequest(
+            request_id=f'{self.mission}:{query.alternative}:{" ".join(query.action)}',
+            mission=self.mission,
+            action=list(query.action),
+            start=states_from_token(query.start),
+            preconditions=query.preconditions,
+            alternative=query.alternative,
+            world_revision=self.world_revision,
+            seed=self.seed,
+            time_budget=self.parameters.request_time_budget,
+        )
+        response = self._call(self.client.satisfy, SatisfyPreconditions.Request(request=request))
+        return answer_from_message(response.answer)
+
+    def advise(self, start: Token, preconditions: Sequence[str]) -> Advice:
+        """Oracle.advise."""
+        request = AdviceRequest(
+            request_id=f'{self.mission}:advice:{len(preconditions)}',
+            mission=self.mission,
+            start=states_from_token(start),
+            preconditions=list(preconditions),
+            purpose=AdviceRequest.NEAREST_FIRST,
+            world_revision=self.world_revision,
+            seed=self.seed,
+        )
+        response = self._call(self.client.advise, Advise.Request(request=request))
+        return advice_from_message(response.answer)
+
+    def _call(self, client: Client, request: Any) -> Any:
+        self._wait_for_service(client)
+        done = threading.Event()
+        future = client.call_async(request)
+        future.add_done_callback(lambda _: done.set())
+        patience = self.parameters.request_time_budget + self.parameters.service_timeout
+        began = time.monotonic()
+        lost = began
+        try:
+            while not done.wait(POLL):
+                self._check()
+                now = time.monotonic()
+                if client.service_is_ready():
+                    lost = now
+                if now - began > patience or now - lost > POLL * 10:
+                    raise GeometryUnavailable(
+                        f'the motion planner (service {client.srv_name}) did not answer within '
+                        f'{now - began:.1f} s: it is stuck or was stopped'
+                    )
+        finally:
+            if not done.is_set():
+                client.remove_pending_request(future)
+        return future.result()
+
+    def _wait_for_service(self, client: Client) -> None:
+        began = time.monotonic()
+        pause = threading.Event()
+        while not client.service_is_ready():
+            self._check()
+            if time.monotonic() - began > self.parameters.service_timeout:
+                raise GeometryUnavailable(
+                    f'the motion planner is not running: no service {client.srv_name} within '
+                    f'{self.parameters.service_timeout:g} s'
+                )
+            pause.wait(POLL)
+
+    def _check(self) -> None:
+        if self.should_stop():
+            raise Cancelled
+        if time.monotonic() > self.deadline:
+            raise LimitReached('the time budget was spent while the motion planner worked')

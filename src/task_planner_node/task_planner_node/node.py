@@ -1,0 +1,235 @@
+"""The task planner as a ROS 2 node."""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+import threading
+import time
+import traceback
+from collections import OrderedDict
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from types import FrameType
+
+import rclpy
+from geohtn_msgs.action import PlanTasks
+from geohtn_msgs.srv import Explain
+from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
+from rclpy.action.server import ServerGoalHandle
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args
+
+from task_planner_node.conversions import (
+    mission_text,
+    progress_to_message,
+    result_to_message,
+)
+from task_planner_node.motion_planner_client_node import MotionPlannerClient, RemoteOracle
+from task_planner_node.outcomes import Options, Outcome, Progress, Result
+from task_planner_node.parameters import PARAMETERS, Parameters, read_parameters
+from task_planner_node.planner import Planner
+
+NAME = 'task_planner_node'
+REMEMBERED = 10
+HELP = f"""\
+The HTN task planner of GeoHTN: plans missions whose operators carry geometric preconditions.
+
+examples:
+  ros2 run {NAME} {NAME}
+  ros2 run {NAME} {NAME} --ros-args -r __ns:=/team1 -p time_budget:=120.0 --log-level debug
+
+It serves the action plan_tasks and the service explain, and needs the services of the motion planner.
+Parameters: {', '.join(parameter.name for parameter in PARAMETERS)} (docs/parameters.md)."""
+
+
+class TaskPlannerNode(Node):
+    """Plans missions on request, one at a time: a second goal waits until the first has ended.
+
+    Action server: plan_tasks (geohtn_msgs/PlanTasks).
+    Service server: explain (geohtn_msgs/Explain), for the last REMEMBERED missions.
+    Service clients: satisfy_preconditions, advise, check_preconditions (of the motion planner).
+    Parameters: PARAMETERS, changeable between missions.
+    """
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(NAME, context=context)
+        for parameter in PARAMETERS:
+            unit = f' [{parameter.unit}]' if parameter.unit else ''
+            descriptor = ParameterDescriptor(
+                description=parameter.description + unit, dynamic_typing=True
+            )
+            self.declare_parameter(parameter.name, parameter.default, descriptor)
+        self._parameters = read_parameters(
+            {p.name: self.get_parameter(p.name).value for p in PARAMETERS}
+        )
+        self.add_on_set_parameters_callback(self._set_parameters)
+        self.stopping = threading.Event()
+        self._turn = threading.Lock()
+        self._details: OrderedDict[str, str] = OrderedDict()
+        self._motion_planner = MotionPlannerClient(context)
+        group = ReentrantCallbackGroup()
+        self._server = ActionServer(
+            self,
+            PlanTasks,
+            'plan_tasks',
+            execute_callback=self._execute,
+            goal_callback=lambda _: GoalResponse.ACCEPT,
+            cancel_callback=lambda _: CancelResponse.ACCEPT,
+            callback_group=group,
+        )
+        self.create_service(Explain, 'explain', self._explain, callback_group=group)
+        self.get_logger().info('ready')
+
+    def close(self) -> None:
+        """End the searches, then destroy everything."""
+        self.stopping.set()
+        with self._turn:
+            self._motion_planner.close()
+            self._server.destroy()
+            self.destroy_node()
+
+    def _set_parameters(self, changes: list[Parameter]) -> SetParametersResult:
+        values = {p.name: getattr(self._parameters, p.name) for p in PARAMETERS}
+        values.update({change.name: change.value for change in changes})
+        try:
+            self._parameters = read_parameters(values)
+        except ValueError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+    def _execute(self, goal: ServerGoalHandle) -> PlanTasks.Result:
+        def should_stop() -> bool:
+            return bool(goal.is_cancel_requested) or self.stopping.is_set()
+
+        while not self._turn.acquire(timeout=0.05):
+            if should_stop():
+                return self._finish(goal, Result(Outcome.CANCELLED, 'cancelled while it waited'))
+        try:
+            try:
+                result = self._plan(goal, should_stop)
+            except Exception as error:
+                # An empty result would read as SOLVED.
+                self.get_logger().error(traceback.format_exc())
+                result = Result(
+                    Outcome.FAILED, f'a fault of the task planner, please report: {error!r}'
+                )
+            return self._finish(goal, result)
+        finally:
+            self._turn.release()
+
+    def _plan(self, goal: ServerGoalHandle, should_stop: Callable[[], bool]) -> Result:
+        request = goal.request
+        parameters = self._parameters
+        options = _options(request, parameters)
+
+        def report(progress: Progress) -> None:
+            goal.publish_feedback(PlanTasks.Feedback(progress=progress_to_message(progress)))
+
+        oracle = RemoteOracle(
+            self._motion_planner,
+            parameters,
+            request.mission,
+            request.world_revision,
+            request.options.seed,
+            time.monotonic() + options.time_budget,
+            should_stop,
+        )
+        planner = Planner(oracle, options, should_stop, report)
+        return planner.plan(mission_text(request.domain), mission_text(request.problem))
+
+    def _finish(self, goal: ServerGoalHandle, result: Result) -> PlanTasks.Result:
+        mission = goal.request.mission
+        self._details.pop(mission, None)
+        self._details[mission] = result.details or result.explanation
+        while len(self._details) > REMEMBERED:
+            self._details.popitem(last=False)
+        self.get_logger().info(f'mission {mission}: {result.outcome.name}: {result.explanation}')
+        if goal.is_cancel_requested:
+            goal.canceled()
+        elif result.outcome == Outcome.SOLVED:
+            goal.succeed()
+        else:
+            goal.abort()
+        return result_to_message(result)
+
+    def _explain(self, request: Explain.Request, response: Explain.Response) -> Explain.Response:
+        mission = request.mission or next(reversed(self._details), '')
+        response.available = mission in self._details
+        response.text = self._details.get(mission, '')
+        return response
+
+
+def _options(request: PlanTasks.Goal, parameters: Parameters) -> Options:
+    wanted = request.options
+    options = Options(
+        parameters.time_budget,
+        parameters.max_alternatives,
+        parameters.max_depth,
+        wanted.optimise,
+        wanted.use_advice,
+    )
+    if 0 < wanted.time_budget < float('inf'):
+        options = replace(options, time_budget=wanted.time_budget)
+    if wanted.max_alternatives:
+        options = replace(options, max_alternatives=wanted.max_alternatives)
+    return options
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the node until SIGINT or SIGTERM; the exit code is 2 for bad arguments or parameters."""
+    words = list(sys.argv if arguments is None else [NAME, *arguments])
+    parser = argparse.ArgumentParser(
+        prog=NAME, description=HELP, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.parse_args(remove_ros_args(words)[1:])
+    stop = threading.Event()
+
+    def on_signal(_number: int, _frame: FrameType | None) -> None:
+        stop.set()
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, on_signal)
+    context = Context()
+    rclpy.init(args=words, context=context, signal_handler_options=SignalHandlerOptions.NO)
+    try:
+        return _serve(context, stop)
+    finally:
+        rclpy.shutdown(context=context)
+
+
+def _serve(context: Context, stop: threading.Event) -> int:
+    try:
+        node = TaskPlannerNode(context)
+    except ValueError as error:
+        print(f'{NAME}: {error}', file=sys.stderr)
+        return 2
+    executor = MultiThreadedExecutor(num_threads=4, context=context)
+    executor.add_node(node)
+
+    def spin() -> None:
+        try:
+            executor.spin()
+        except ExternalShutdownException:
+            return
+
+    thread = threading.Thread(target=spin, daemon=True)
+    thread.start()
+    while not stop.wait(0.5) and thread.is_alive():
+        continue
+    node.stopping.set()
+    executor.shutdown(timeout_sec=2.0)
+    thread.join(timeout=2.0)
+    node.close()
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

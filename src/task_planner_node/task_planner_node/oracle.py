@@ -1,0 +1,131 @@
+"""What the search asks of a motion planner, and what it hears: the messages as far as the search opens them.
+
+A geometric state is a token: hashable, equal when the attitudes are, and passed on unopened.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, field
+from enum import IntEnum
+from typing import Protocol
+
+from task_planner_node.errors import Diagnostic
+
+Token = Hashable
+
+
+class Status(IntEnum):
+    """What an answer says about its request: the numbers of geohtn_msgs/GeometricAnswer."""
+
+    FOUND = 0
+    IMPOSSIBLE = 1
+    UNKNOWN = 2
+    ERROR = 3
+
+
+class Scope(IntEnum):
+    """The starts from which an IMPOSSIBLE holds."""
+
+    THIS_START = 0
+    CONNECTED_STARTS = 1
+    ANY_START = 2
+
+
+class Code(IntEnum):
+    """The causes that the search tells apart; every other number is passed on as it is."""
+
+    START_IN_OBSTACLE = 104
+    INVALID_PRECONDITIONS = 300
+    UNKNOWN_AGENT = 301
+    UNKNOWN_OBJECT = 302
+    UNKNOWN_FUNCTION = 303
+    UNKNOWN_PROPERTY = 304
+    NO_START = 306
+    NO_WORLD = 307
+    WORLD_CHANGED = 308
+    UNSUPPORTED = 309
+
+
+INVALID_CODES = frozenset(
+    {
+        Code.INVALID_PRECONDITIONS,
+        Code.UNKNOWN_AGENT,
+        Code.UNKNOWN_OBJECT,
+        Code.UNKNOWN_FUNCTION,
+        Code.UNKNOWN_PROPERTY,
+        Code.UNSUPPORTED,
+    }
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Query:
+    """Can these ground preconditions be met from ``start``?  ``action`` is for people and logs."""
+
+    action: tuple[str, ...]
+    preconditions: str
+    start: Token
+    alternative: int
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """``end`` and ``length`` [m] hold when FOUND; ``payload`` is the message for the plan, unopened."""
+
+    status: Status
+    code: int = 0
+    scope: Scope = Scope.THIS_START
+    message: str = ''
+    end: Token = ()
+    assigned: bool = False
+    length: float = 0.0
+    objects: tuple[str, ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
+    time_spent: float = 0.0
+    payload: object = field(default=None, compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class CandidateAdvice:
+    """What is known of one candidate; ``code`` and ``message`` say why it is impossible."""
+
+    impossible: bool = False
+    scope: Scope = Scope.THIS_START
+    code: int = 0
+    message: str = ''
+    objects: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Advice:
+    """Advice on every candidate, and their indices in the order to try; empty when there is none."""
+
+    candidates: tuple[CandidateAdvice, ...]
+    order: tuple[int, ...]
+    time_spent: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class TextCheck:
+    """What is wrong with geometric preconditions, and whether they set an attitude."""
+
+    assigns: bool
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+
+class Oracle(Protocol):
+    """A motion planner.
+
+    Every method raises GeometryUnavailable when it does not answer, and Cancelled or LimitReached when the
+    mission ends while it waits.
+    """
+
+    def check(self, text: str, source: str, line: int, column: int) -> TextCheck:
+        """Check a text, possibly with variables, that begins at ``line`` and ``column`` of ``source``."""
+
+    def satisfy(self, query: Query) -> Answer:
+        """Answer one request."""
+
+    def advise(self, start: Token, preconditions: Sequence[str]) -> Advice:
+        """Advise on at most 1000 ground texts."""

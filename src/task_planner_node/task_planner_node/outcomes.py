@@ -1,0 +1,61 @@
+"""How a mission ended, without ROS."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import IntEnum
+from math import inf
+
+from task_planner_node.errors import Diagnostic
+from task_planner_node.search.engine import Step
+from task_planner_node.search.statistics import Statistics
+
+
+class Outcome(IntEnum):
+    """The numbers of geohtn_msgs/Outcome."""
+
+    SOLVED = 0
+    NO_PLAN = 1
+    LIMIT = 2
+    CANCELLED = 3
+    INVALID = 4
+    UNAVAILABLE = 5
+    FAILED = 6
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """How a mission is searched; ``time_budget`` in seconds."""
+
+    time_budget: float = 60.0
+    max_alternatives: int = 4
+    max_depth: int = 200_000
+    optimise: bool = False
+    use_advice: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """Where a search stands; lengths in metres, ``elapsed`` in seconds."""
+
+    phase: str
+    goals_reached: int = 0
+    goals_total: int = 0
+    requests: int = 0
+    backtracks: int = 0
+    depth: int = 0
+    current_length: float = 0.0
+    best_length: float = inf
+    elapsed: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """The outcome with its explanation; ``steps`` is the plan when SOLVED; ``details`` is for explain."""
+
+    outcome: Outcome
+    explanation: str
+    diagnostics: tuple[Diagnostic, ...] = ()
+    steps: tuple[Step, ...] = ()
+    statistics: Statistics = field(default_factory=Statistics)
+    details: str = ''

@@ -1,0 +1,83 @@
+"""The parameters of the task planner: one table, and a frozen snapshot of checked values."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+Value = int | float
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One parameter: a whole number when ``default`` is one, else a real number."""
+
+    name: str
+    default: Value
+    unit: str
+    lowest: Value
+    highest: Value
+    description: str
+
+
+PARAMETERS = (
+    Parameter('time_budget', 60.0, 's', 0.1, 86400.0, 'wall clock of a mission that names none'),
+    Parameter(
+        'max_alternatives', 4, '', 1, 1000, 'destinations tried per geometric request, unless named'
+    ),
+    Parameter(
+        'max_depth', 200_000, '', 100, 2_000_000, 'nested choices of a search, bounds its memory'
+    ),
+    Parameter(
+        'request_time_budget', 5.0, 's', 0.1, 3600.0, 'wall clock granted to one geometric request'
+    ),
+    Parameter(
+        'service_timeout', 4.0, 's', 0.1, 600.0, 'wait for the services of the motion planner'
+    ),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Parameters:
+    """Checked values of PARAMETERS, by the same names."""
+
+    time_budget: float = 60.0
+    max_alternatives: int = 4
+    max_depth: int = 200_000
+    request_time_budget: float = 5.0
+    service_timeout: float = 4.0
+
+
+def read_parameters(values: Mapping[str, object]) -> Parameters:
+    """Check ``values``; those that are not given keep their defaults.
+
+    Raises ValueError with a sentence that names the parameter, its unit and its range.
+    """
+    checked = {p.name: _check(p, values.get(p.name, p.default)) for p in PARAMETERS}
+    return Parameters(
+        float(checked['time_budget']),
+        int(checked['max_alternatives']),
+        int(checked['max_depth']),
+        float(checked['request_time_budget']),
+        float(checked['service_timeout']),
+    )
+
+
+def _check(parameter: Parameter, value: object) -> Value:
+    whole = isinstance(parameter.default, int)
+    number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if (
+        isinstance(value, (int, float))
+        and number
+        and math.isfinite(value)
+        and (not whole or value == int(value))
+        and parameter.lowest <= value <= parameter.highest
+    ):
+        return value
+    kind = 'a whole number' if whole else 'a number'
+    unit = f' {parameter.unit}' if parameter.unit else ''
+    raise ValueError(
+        f'parameter {parameter.name} has to be {kind} from {parameter.lowest:g} to '
+        f'{parameter.highest:g}{unit}, not {value!r}: {parameter.description}'
+    )

@@ -1,0 +1,157 @@
+"""The task planner as one function: two texts and a motion planner to a plan, or to why there is none."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+
+from task_planner_node.errors import (
+    Cancelled,
+    Diagnostic,
+    GeometryFailed,
+    GeometryUnavailable,
+    LimitReached,
+    MissionError,
+)
+from task_planner_node.explanation import explain_failure, explain_solution
+from task_planner_node.language.model import Problem
+from task_planner_node.mission import MissionText, check_and_compile, locate, read_mission
+from task_planner_node.oracle import Oracle, Token
+from task_planner_node.outcomes import Options, Outcome, Progress, Result
+from task_planner_node.search.engine import Limits, Search
+from task_planner_node.search.geometry import Geometry
+from task_planner_node.search.state import State
+from task_planner_node.search.statistics import Statistics
+
+PROGRESS_INTERVAL = 0.1
+
+
+class Planner:
+    """One mission's way through loading, checking and searching.
+
+    ``should_stop`` tells that the client took the mission back; ``report`` hears progress, at most every
+    PROGRESS_INTERVAL seconds.
+    """
+
+    def __init__(
+        self,
+        oracle: Oracle,
+        options: Options,
+        should_stop: Callable[[], bool] = lambda: False,
+        report: Callable[[Progress], None] = lambda _: None,
+    ) -> None:
+        self._oracle = oracle
+        self._options = options
+        self._should_stop = should_stop
+        self._report = report
+        self._began = time.monotonic()
+        self._reported = -1.0
+        self._statistics = Statistics()
+        self._search: Search | None = None
+        self._state: State | None = None
+        self._problem: Problem | None = None
+
+    def plan(self, domain: MissionText, problem: MissionText, start: Token = ()) -> Result:
+        """Plan a mission from the geometric state ``start``; never raises for what is in the texts."""
+        diagnostics: tuple[Diagnostic, ...] = ()
+        try:
+            outcome, explanation, diagnostics = self._plan(domain, problem, start)
+        except MissionError as error:
+            outcome, explanation = Outcome.INVALID, str(error)
+            diagnostics = error.diagnostics
+        except Cancelled:
+            outcome, explanation = Outcome.CANCELLED, 'cancelled by the client'
+        except LimitReached as error:
+            outcome, explanation, diagnostics = self._at_limit(str(error))
+        except RecursionError:
+            outcome, explanation, diagnostics = self._at_limit('the axioms recurse too deeply')
+        except GeometryUnavailable as error:
+            outcome, explanation = Outcome.UNAVAILABLE, str(error)
+        except GeometryFailed as error:
+            outcome, explanation = Outcome.FAILED, str(error)
+        self._statistics.planning_time = time.monotonic() - self._began
+        self._say('writing', force=True)
+        search = self._search
+        steps = search.best or () if search and outcome == Outcome.SOLVED else ()
+        details = '\n'.join([explanation, *(search.dead_ends.lines(1000) if search else [])])
+        return Result(outcome, explanation, diagnostics, steps, self._statistics, details)
+
+    def _plan(
+        self, domain_text: MissionText, problem_text: MissionText, start: Token
+    ) -> tuple[Outcome, str, tuple[Diagnostic, ...]]:
+        self._say('loading', force=True)
+        domain, problem = read_mission(domain_text, problem_text)
+        self._problem = problem
+        self._say('checking', force=True)
+        mission = check_and_compile(domain, problem, self._oracle)
+        facts = [(fact.name, *fact.args) for fact in problem.facts]
+        self._state = State(mission.domain.plan, facts)
+        geometry = Geometry(
+            self._oracle,
+            self._statistics,
+            self._options.max_alternatives,
+            self._check,
+            self._locate,
+        )
+        search = self._search = Search(
+            mission.domain,
+            self._state,
+            geometry,
+            self._statistics,
+            Limits(self._options.max_depth, self._options.optimise, self._options.use_advice),
+            self._check,
+        )
+        network = mission.domain.initial_network(problem.tasks)
+        self._say('searching', force=True)
+        search.run(network, start)
+        if search.best is not None:
+            return Outcome.SOLVED, explain_solution(search), mission.warnings
+        outcome = Outcome.NO_PLAN if search.proven else Outcome.LIMIT
+        reason = '' if search.proven else 'not everything could be tried: nothing is proven'
+        explanation, remarks = explain_failure(search, reason, self._locate)
+        return outcome, explanation, (*remarks, *mission.warnings)
+
+    def _at_limit(self, reason: str) -> tuple[Outcome, str, tuple[Diagnostic, ...]]:
+        """A limit ends the search: with the best plan so far when there is one."""
+        search = self._search
+        if search is None:
+            return Outcome.LIMIT, reason, ()
+        if search.best is not None:
+            return Outcome.SOLVED, explain_solution(search), ()
+        explanation, remarks = explain_failure(search, reason, self._locate)
+        return Outcome.LIMIT, explanation, remarks
+
+    def _locate(self, labels: Sequence[str]) -> Diagnostic | None:
+        return locate(self._problem, labels) if self._problem is not None else None
+
+    def _check(self) -> None:
+        if self._should_stop():
+            raise Cancelled
+        if time.monotonic() - self._began > self._options.time_budget:
+            raise LimitReached(f'the time budget of {self._options.time_budget:g} s is spent')
+        self._say('searching')
+
+    def _say(self, phase: str, force: bool = False) -> None:
+        elapsed = time.monotonic() - self._began
+        if not force and elapsed - self._reported < PROGRESS_INTERVAL:
+            return
+        self._reported = elapsed
+        problem, state, search = self._problem, self._state, self._search
+        if problem is None or state is None or search is None:
+            self._report(Progress(phase, elapsed=elapsed))
+            return
+        statistics = self._statistics
+        node = search.stack[-1] if search.stack else None
+        self._report(
+            Progress(
+                phase,
+                sum((goal.name, *goal.args) in state.facts for goal in problem.goals),
+                len(problem.goals),
+                statistics.requests,
+                statistics.backtracks + statistics.geometric_backtracks,
+                node.actions if node else 0,
+                node.length if node else 0.0,
+                search.best_length,
+                elapsed,
+            )
+        )

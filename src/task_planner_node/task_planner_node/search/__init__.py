@@ -1,0 +1,1 @@
+"""The search: task networks, states with an undo trail, geometric requests, and explanations."""

@@ -1,0 +1,169 @@
+"""The geometric half of the search: requests, their cache, what they prove, and advice."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+from task_planner_node.errors import Diagnostic, GeometryFailed, MissionError
+from task_planner_node.language.model import show
+from task_planner_node.oracle import (
+    INVALID_CODES,
+    Answer,
+    Code,
+    Oracle,
+    Query,
+    Scope,
+    Status,
+    Token,
+)
+from task_planner_node.search.network import Task
+from task_planner_node.search.statistics import Statistics
+
+MOST_ADVISED = 1000
+
+
+@dataclass(frozen=True, slots=True)
+class Nogood:
+    """Ground preconditions that can never be met, for the starts that its key says."""
+
+    reason: str
+    objects: tuple[str, ...]
+
+
+class Geometry:
+    """Asks the oracle, remembers every answer within one search, and learns from what is impossible.
+
+    ``version`` grows with every new nogood.  ``locate`` places an error of the motion planner in the
+    texts of the mission.
+    """
+
+    def __init__(
+        self,
+        oracle: Oracle,
+        statistics: Statistics,
+        max_alternatives: int,
+        check_limits: Callable[[], None],
+        locate: Callable[[Sequence[str]], Diagnostic | None],
+    ) -> None:
+        self.version = 0
+        self._oracle = oracle
+        self._statistics = statistics
+        self._max_alternatives = max_alternatives
+        self._check_limits = check_limits
+        self._locate = locate
+        self._answers: dict[tuple[str, Token, int], Answer] = {}
+        self._nogoods: dict[tuple[Scope, Token, str], Nogood] = {}
+        self._ranks: dict[Token, dict[str, int]] = {}
+
+    def nogood(self, text: str, start: Token, lineage: Token) -> Nogood | None:
+        """Why ``text`` cannot be met from ``start``, when that is proven already."""
+        return self.lasting_nogood(text, lineage) or self._nogoods.get(
+            (Scope.THIS_START, start, text)
+        )
+
+    def lasting_nogood(self, text: str, lineage: Token | None) -> Nogood | None:
+        """Why ``text`` cannot be met, now and after any drive.
+
+        ``lineage`` is the attitude that was last assigned; with None only what holds everywhere counts.
+        """
+        everywhere = self._nogoods.get((Scope.ANY_START, (), text))
+        if everywhere is not None or lineage is None:
+            return everywhere
+        return self._nogoods.get((Scope.CONNECTED_STARTS, lineage, text))
+
+    def alternatives(self, task: Task, text: str, start: Token, lineage: Token) -> Iterator[Answer]:
+        """One answer after the other: FOUND ones, ended by the first of another status.
+
+        An assigned attitude is the only one.  The generator also ends at the limit of alternatives.
+        """
+        for alternative in range(self._max_alternatives):
+            answer = self._ask(task, text, start, lineage, alternative)
+            yield answer
+            if answer.status != Status.FOUND or answer.assigned:
+                return
+
+    def _ask(self, task: Task, text: str, start: Token, lineage: Token, alternative: int) -> Answer:
+        key = (text, start, alternative)
+        cached = self._answers.get(key)
+        if cached is not None:
+            return cached
+        self._check_limits()
+        action = tuple(show(part) for part in task)
+        self._statistics.requests += 1
+        if alternative:
+            self._statistics.geometric_backtracks += 1
+        began = time.monotonic()
+        answer = self._oracle.satisfy(Query(action, text, start, alternative))
+        self._statistics.exchanged(time.monotonic() - began, answer.time_spent)
+        self._statistics.answers += 1
+        if answer.status == Status.ERROR and answer.code != Code.NO_START:
+            self._refuse(action, answer)
+        if answer.status == Status.FOUND:
+            self._statistics.found += 1
+        elif answer.status == Status.UNKNOWN:
+            self._statistics.unknown += 1
+        else:
+            self._statistics.impossible += 1
+            if alternative == 0:
+                self._learn(text, answer.scope, start, lineage, answer.message, answer.objects)
+        self._answers[key] = answer
+        return answer
+
+    def _learn(
+        self,
+        text: str,
+        scope: Scope,
+        start: Token,
+        lineage: Token,
+        reason: str,
+        objects: tuple[str, ...],
+    ) -> None:
+        place = {Scope.THIS_START: start, Scope.CONNECTED_STARTS: lineage, Scope.ANY_START: ()}
+        self._nogoods[(scope, place[scope], text)] = Nogood(reason, objects)
+        if scope != Scope.THIS_START:
+            self.version += 1
+
+    def _refuse(self, action: tuple[str, ...], answer: Answer) -> None:
+        """An answer of status ERROR: the mission or the motion planner is at fault."""
+        call = f'({" ".join(action)})'
+        if answer.code not in INVALID_CODES:
+            raise GeometryFailed(f'the motion planner cannot work on {call}: {answer.message}')
+        labels = [d.text for d in answer.diagnostics if d.text in action] or [
+            word for word in action[1:] if word in answer.message.replace('"', ' ').split()
+        ]
+        place = self._locate(labels or action[1:])
+        message = f'{call}: {answer.message}'
+        if place is None:
+            raise MissionError([Diagnostic(message)])
+        raise MissionError(
+            [Diagnostic(message, place.line, place.column, place.text, place.source)]
+        )
+
+    def ranks(
+        self, start: Token, lineage: Token, texts: Sequence[str], ask: bool
+    ) -> dict[str, int]:
+        """Advised places of ground texts, 0 for the one to try first; asked for where one is not known.
+
+        With ``ask`` False only what is known already counts.
+        """
+        known = self._ranks.setdefault(start, {})
+        wanted = list(dict.fromkeys(texts))[:MOST_ADVISED]
+        if not ask or len(wanted) < 2 or all(text in known for text in wanted):
+            return known
+        self._check_limits()
+        began = time.monotonic()
+        advice = self._oracle.advise(start, wanted)
+        self._statistics.exchanged(time.monotonic() - began, advice.time_spent)
+        self._statistics.advices += 1
+        for text, candidate in zip(wanted, advice.candidates, strict=False):
+            if candidate.impossible and self.nogood(text, start, lineage) is None:
+                self._learn(
+                    text, candidate.scope, start, lineage, candidate.message, candidate.objects
+                )
+        order = [index for index in advice.order if 0 <= index < len(wanted)]
+        known.clear()
+        known.update({text: len(wanted) for text in wanted})
+        known.update({wanted[index]: place for place, index in enumerate(order)})
+        return known

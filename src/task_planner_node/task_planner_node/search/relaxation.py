@@ -1,0 +1,187 @@
+"""Proofs that tasks cannot be done any more, by a relaxation of the task network.
+
+Deletions, the order of tasks and negative preconditions are left out, and every branch of a method is open,
+so whatever a real decomposition can do, the relaxed one can.  A task that cannot even be done in the relaxation
+is dead, and with it every network that holds it, whatever the order of the other tasks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from task_planner_node.language.model import show
+from task_planner_node.oracle import Token
+from task_planner_node.search.dead_ends import DeadEnd
+from task_planner_node.search.domain import CompiledDomain, CompiledOperator
+from task_planner_node.search.geometry import Geometry, Nogood
+from task_planner_node.search.network import Task, all_tasks
+from task_planner_node.search.state import State
+
+MOST_BINDINGS = 20_000
+MOST_REASONS = 20
+
+
+class _TooLarge(Exception):
+    """The relaxation has more bindings than it is worth to look at."""
+
+
+def prove_dead(
+    domain: CompiledDomain,
+    state: State,
+    geometry: Geometry,
+    tasks: Iterable[Task],
+    lineage: Token,
+) -> list[DeadEnd]:
+    """The reasons why not all of ``tasks`` can be done from ``state`` on; empty when nothing is proven.
+
+    What is impossible for the attitudes connected to ``lineage`` counts unless an attitude may be assigned
+    anew: the first assignment would have to come after tasks that are all subject to it.
+    """
+    wanted = list(dict.fromkeys(tasks))
+    mark = state.mark()
+    state.relaxed = True
+    try:
+        for assumed in (lineage, None):
+            relaxation = _Relaxation(domain, state, geometry, assumed)
+            relaxation.explore(wanted)
+            if assumed is None or not relaxation.assigns:
+                return relaxation.reasons(wanted)
+            state.undo(mark)
+        return []
+    except _TooLarge:
+        return []
+    finally:
+        state.undo(mark)
+        state.relaxed = False
+
+
+class _Relaxation:
+    """The fixed point of facts that may become true and of decompositions that may be applied."""
+
+    def __init__(
+        self, domain: CompiledDomain, state: State, geometry: Geometry, lineage: Token | None
+    ) -> None:
+        self.assigns = False
+        self._domain = domain
+        self._state = state
+        self._geometry = geometry
+        self._lineage = lineage
+        self._done: set[Task] = set()
+        self._blocked: dict[Task, Nogood] = {}
+        self._decompositions: dict[Task, dict[tuple[Task, ...], None]] = {}
+        self._seen: dict[Task, None] = {}
+        self._bindings = 0
+
+    def explore(self, tasks: Iterable[Task]) -> None:
+        """Apply everything until nothing new appears."""
+        self._seen = dict.fromkeys(tasks)
+        changed = True
+        while changed:
+            changed = False
+            for task in list(self._seen):
+                operator = self._domain.operators.get(task[0])
+                if operator is None:
+                    changed |= self._decompose(task)
+                else:
+                    changed |= self._apply(operator, task)
+        self._close()
+
+    def _count(self) -> None:
+        self._bindings += 1
+        if self._bindings > MOST_BINDINGS:
+            raise _TooLarge
+
+    def _apply(self, operator: CompiledOperator, task: Task) -> bool:
+        frame = operator.bind(task)
+        changed = False
+        if frame is None:
+            return False
+        for _ in operator.condition.solutions(self._state, frame):
+            self._count()
+            if operator.text is not None:
+                nogood = self._geometry.lasting_nogood(operator.text(frame), self._lineage)
+                if nogood is not None:
+                    self._blocked.setdefault(task, nogood)
+                    continue
+                self.assigns = self.assigns or operator.assigns
+            self._done.add(task)
+            for fact in operator.adds:
+                changed |= self._state.add(fact(frame))
+        return changed
+
+    def _decompose(self, task: Task) -> bool:
+        found = self._decompositions.setdefault(task, {})
+        changed = False
+        self._count()
+        for method in self._domain.methods.get(task[0], ()):
+            frame = method.bind(task)
+            if frame is None:
+                continue
+            for branch in method.branches:
+                for _ in branch.condition.solutions(self._state, frame):
+                    self._count()
+                    subtasks = tuple(all_tasks(branch.grow(frame, None)))
+                    if subtasks not in found:
+                        found[subtasks] = None
+                        changed = True
+                        for subtask in subtasks:
+                            self._seen.setdefault(subtask)
+        return changed
+
+    def _close(self) -> None:
+        """Mark every task as done that has a decomposition into tasks that are."""
+        changed = True
+        while changed:
+            changed = False
+            for task, ways in self._decompositions.items():
+                if task not in self._done and any(self._done.issuperset(way) for way in ways):
+                    self._done.add(task)
+                    changed = True
+
+    def reasons(self, tasks: list[Task]) -> list[DeadEnd]:
+        """The dead ends below those of ``tasks`` that cannot be done."""
+        found: list[DeadEnd] = []
+        agenda = [task for task in reversed(tasks) if task not in self._done]
+        visited = set(agenda)
+        while agenda and len(found) < MOST_REASONS:
+            task = agenda.pop()
+            ways = self._decompositions.get(task, {})
+            if ways:
+                below = [sub for way in ways for sub in way if sub not in self._done]
+                fresh = [sub for sub in dict.fromkeys(below) if sub not in visited]
+                visited.update(fresh)
+                agenda.extend(reversed(fresh))
+            else:
+                found.append(self._reason(task))
+        return found or [
+            DeadEnd(task, 'it decomposes into itself for ever', count=1)
+            for task in tasks
+            if task not in self._done
+        ]
+
+    def _reason(self, task: Task) -> DeadEnd:
+        nogood = self._blocked.get(task)
+        if nogood is not None:
+            return DeadEnd(task, nogood.reason, nogood.objects, 1)
+        operator = self._domain.operators.get(task[0])
+        conditions = []
+        if operator is not None:
+            frame = operator.bind(task)
+            if frame is not None:
+                conditions.append(operator.condition.first_failure(self._state, frame))
+        for method in self._domain.methods.get(task[0], ()):
+            frame = method.bind(task)
+            if frame is not None:
+                conditions += [
+                    b.condition.first_failure(self._state, frame) for b in method.branches
+                ]
+        if not conditions:
+            return DeadEnd(task, no_definition_fits(task, operator is not None), count=1)
+        literals = ' or '.join(dict.fromkeys(conditions))
+        return DeadEnd(task, f'nothing can make {literals} true', count=1)
+
+
+def no_definition_fits(task: Task, primitive: bool) -> str:
+    """The reason when no head matches."""
+    kind = 'operator' if primitive else 'method'
+    return f'no {kind} {show(task[0])} has a head that fits these arguments'
