@@ -1,0 +1,1 @@
+"""GeoHTN's interface: dispatches missions, joins actions and paths, records, draws and replays."""

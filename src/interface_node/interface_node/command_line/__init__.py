@@ -1,0 +1,1 @@
+"""The ``geohtn`` command: starts the three nodes, plans missions with them, and tells people."""

@@ -1,0 +1,137 @@
+"""Planning one mission with nodes that run: waiting for them, progress, cancelling, the report."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Collection
+from typing import Protocol
+
+from interface_node.command_line.console import Console
+from interface_node.command_line.diagnostics import write_diagnostics
+from interface_node.command_line.errors import CommandError
+from interface_node.command_line.exit_codes import ExitCode, exit_code_of
+from interface_node.command_line.goals import MissionGoal
+from interface_node.command_line.interrupts import Interrupts
+from interface_node.command_line.nodes import NODES, how_to_start
+from interface_node.command_line.progress import progress_line
+from interface_node.command_line.results import MissionResult, Progress
+from interface_node.command_line.solution import solution_plan, step_table, totals
+
+#: [s] that nodes may take to start; the first start on a machine compiles.
+START_PATIENCE = 60.0
+_POLL = 0.05
+_CANCEL_PATIENCE = 0.9
+
+
+class Client(Protocol):
+    """What planning needs of :class:`mission_client_node.MissionClient`."""
+
+    progress: Progress
+    result: MissionResult | None
+
+    def missing(self) -> tuple[str, ...]:
+        """Names of the nodes that are not to be seen."""
+
+    def start(self, goal: MissionGoal) -> None:
+        """Send a mission."""
+
+    def wait(self, seconds: float) -> bool:
+        """Whether the mission has ended, after at most ``seconds``."""
+
+    def cancel(self) -> None:
+        """Ask for the mission to end."""
+
+
+def wait_for_nodes(
+    client: Client,
+    patience: float,
+    namespace: str,
+    check: Callable[[], None],
+    *,
+    nodes: Collection[str] = NODES,
+) -> None:
+    """Wait until ``nodes`` are to be seen; ``check`` raises what ends the waiting early.
+
+    Raises:
+        CommandError: NO_NODE with the missing nodes' names, after ``patience`` [s].
+    """
+    deadline = time.monotonic() + patience
+    while missing := [node for node in client.missing() if node in nodes]:
+        check()
+        if time.monotonic() > deadline:
+            names = ' and '.join(filter(None, (', '.join(missing[:-1]), missing[-1])))
+            verb = 'is' if len(missing) == 1 else 'are'
+            raise CommandError(
+                f'{names} {verb} not running in namespace /{namespace}: '
+                + how_to_start(missing, namespace),
+                ExitCode.NO_NODE,
+            )
+        time.sleep(_POLL)
+
+
+def plan_mission(
+    client: Client, goal: MissionGoal, console: Console, check: Callable[[], None]
+) -> MissionResult:
+    """Plan a mission and show how it goes; ``check`` raises what ends it early.
+
+    Whatever ends it, the nodes are asked to stop working on it.
+
+    Raises:
+        CommandError: when the interface node refuses the mission or goes away.
+    """
+    client.start(goal)
+    phase = ''
+    try:
+        while not client.wait(_POLL):
+            progress = client.progress
+            console.status(progress_line(progress), new_phase=progress.phase != phase)
+            phase = progress.phase
+            check()
+            if 'interface_node' in client.missing():
+                raise CommandError('interface_node went away while it planned', ExitCode.NO_NODE)
+    except BaseException:
+        client.cancel()
+        client.wait(_CANCEL_PATIENCE)
+        raise
+    finally:
+        console.end_status()
+    if client.result is None:
+        raise CommandError('interface_node refused the mission', ExitCode.FAILED)
+    return client.result
+
+
+def report(result: MissionResult, goal: MissionGoal, console: Console) -> ExitCode:
+    """Write what came of a mission: the plan to ``out``, or to ``err`` why there is none."""
+    plan = result.plan
+    write_diagnostics(console, plan.diagnostics, goal.mission.sources.values())
+    if plan.outcome != 'SOLVED':
+        first, *rest = plan.explanation.splitlines() or ['the nodes did not say why']
+        console.error(f'{plan.outcome}: {first}', tuple(rest))
+        for file in result.files:
+            console.note(f'wrote {file}')
+        return exit_code_of(plan.outcome)
+    heading, *actions = solution_plan(plan.steps)
+    console.print(console.styled(heading, 'bold'))
+    for line in actions:
+        console.print(line)
+    console.print('')
+    if plan.steps:
+        heading, *rows = step_table(plan)
+        console.print(console.styled(heading, 'bold'))
+        for line in rows:
+            console.print(line)
+        console.print('')
+    for line in totals(result):
+        console.print(line)
+    return ExitCode.DONE
+
+
+def checking(interrupts: Interrupts, *checks: Callable[[], None]) -> Callable[[], None]:
+    """One check that a signal or any of ``checks`` ends."""
+
+    def check() -> None:
+        interrupts.check()
+        for each in checks:
+            each()
+
+    return check

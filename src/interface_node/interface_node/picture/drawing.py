@@ -1,0 +1,303 @@
+"""Drawing a plan in its world: obstacles, objectives, attitudes, viewing lines and the way."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from math import cos, hypot, sin
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle, Patch, Polygon
+from matplotlib.patheffects import withStroke
+from numpy.typing import NDArray
+
+from interface_node.driving import sample
+from interface_node.picture.labels import place_labels
+from interface_node.plan import Plan, Step, World
+
+#: Pixels an inch, and inches of the longer side.
+DPI, LONG_SIDE = 150, 10.67
+#: More objects than this are drawn without their labels.
+MAX_LABELS = 100
+
+START, END = '#1a9641', '#d7191c'
+PROGRESS = LinearSegmentedColormap.from_list('progress', [START, '#2c7fb8', '#7b3294', END])
+OBSTACLE, OBSTACLE_EDGE = '#c3c8cf', '#9aa1ab'
+OBJECTIVE, INK, QUIET = '#ffd23f', '#22262b', '#6b7480'
+
+
+def write_picture(plan: Plan) -> bytes:
+    """The picture as a PNG file; the same plan gives the same bytes."""
+    buffer = BytesIO()
+    draw(plan).savefig(buffer, format='png', dpi=DPI, metadata={'Software': None})
+    return buffer.getvalue()
+
+
+def draw(plan: Plan) -> Figure:
+    """Draw the plan in its world, or only the world when there is no plan.
+
+    Raises ValueError when the plan has no world.
+    """
+    world = plan.world
+    if world is None:
+        raise ValueError('a plan without a world cannot be drawn')
+    x_min, y_min, x_max, y_max = world.bounds
+    shape = min(2.0, max(0.5, (y_max - y_min) / (x_max - x_min)))
+    width = LONG_SIDE * min(1.0, 1 / shape)
+    figure = Figure(figsize=(width, LONG_SIDE * min(1.0, shape)), dpi=DPI, layout='constrained')
+    FigureCanvasAgg(figure)
+    axes = figure.add_subplot()
+    axes.set_aspect('equal')
+    axes.set_xlim(x_min, x_max)
+    axes.set_ylim(y_min, y_max)
+    axes.set_xlabel('x [m]', color=QUIET)
+    axes.set_ylabel('y [m]', color=QUIET)
+    axes.tick_params(colors=QUIET, labelsize=9)
+    for spine in axes.spines.values():
+        spine.set_color(OBSTACLE_EDGE)
+    axes.set_title(_title(plan), loc='left', fontsize=13, color=INK, parse_math=False)
+
+    _draw_obstacles(axes, world)
+    way = _draw_way(axes, plan, world)
+    looked_at = _draw_viewing_lines(axes, plan, world)
+    _draw_objects(axes, world)
+    _draw_attitudes(axes, plan, world)
+    figure.legend(
+        handles=_legend(plan),
+        loc='outside lower center',
+        ncols=7,
+        frameon=False,
+        fontsize=9,
+        labelcolor=INK,
+        handletextpad=0.5,
+        columnspacing=1.6,
+    )
+    _draw_labels(figure, axes, plan, world, np.vstack([way, looked_at]))
+    return figure
+
+
+def _title(plan: Plan) -> str:
+    name = plan.mission or 'mission'
+    if plan.outcome != 'SOLVED':
+        return f'{name}: {plan.outcome}'
+    actions = f'{len(plan.steps)} action{"" if len(plan.steps) == 1 else "s"}'
+    return f'{name}: {actions}, {plan.length:,.0f} m'
+
+
+def _draw_obstacles(axes: Axes, world: World) -> None:
+    style = {'facecolor': OBSTACLE, 'edgecolor': OBSTACLE_EDGE, 'linewidth': 0.8, 'zorder': 1}
+    for obstacle in world.obstacles:
+        patch: Patch = (
+            Polygon(obstacle.corners, closed=True, **style)
+            if obstacle.corners
+            else Circle(obstacle.center, obstacle.radius, **style)
+        )
+        axes.add_patch(patch)
+
+
+def _draw_way(axes: Axes, plan: Plan, world: World) -> NDArray[np.float64]:
+    """Draw what is driven, coloured by progress; give the points that it passes, (n, 2) [m]."""
+    spacing = _size(world) / 400
+    legs = []
+    for step in plan.steps:
+        robot = world.robot(step.agent)
+        if step.segments and step.start and robot:
+            legs.append(sample(step.start, step.segments, robot.wheelbase, spacing)[:, :2])
+    if not legs:
+        return np.empty((0, 2))
+    pieces = np.vstack([np.stack([leg[:-1], leg[1:]], axis=1) for leg in legs])
+    lengths = np.hypot(*(pieces[:, 1] - pieces[:, 0]).T)
+    driven = np.cumsum(lengths)
+    colors = PROGRESS(driven / driven[-1] if driven[-1] else driven)
+    axes.add_collection(
+        LineCollection(list(pieces), colors=colors, linewidths=2.4, capstyle='round', zorder=4)
+    )
+    _draw_chevrons(axes, pieces, driven, colors, _size(world) / 12)
+    return np.vstack(legs)
+
+
+def _draw_chevrons(
+    axes: Axes,
+    pieces: NDArray[np.float64],
+    driven: NDArray[np.float64],
+    colors: NDArray[np.float64],
+    every: float,
+) -> None:
+    """Small arrow heads along the way, ``every`` so many metres: which way it is driven."""
+    size = every / 12
+    at = np.unique(np.searchsorted(driven, np.arange(every / 2, driven[-1], every)))
+    for piece, color in zip(pieces[at], colors[at], strict=True):
+        direction = piece[1] - piece[0]
+        length = hypot(*direction)
+        if not length:
+            continue
+        along = direction / length * size
+        across = np.array([-along[1], along[0]]) * 0.75
+        corners = [piece[1] + along, piece[1] - along / 2 + across, piece[1] - along / 2 - across]
+        axes.add_patch(
+            Polygon(corners, closed=True, facecolor=color, edgecolor='white', lw=0.5, zorder=5)
+        )
+
+
+def _draw_viewing_lines(axes: Axes, plan: Plan, world: World) -> NDArray[np.float64]:
+    lines = [
+        ((step.end.x, step.end.y), world.objects[label])
+        for step in plan.steps
+        if step.end and not step.assigned
+        for label in step.objects
+        if label in world.objects
+    ]
+    axes.add_collection(
+        LineCollection(lines, colors=INK, linewidths=1.0, linestyles=(0, (4, 3)), zorder=3)
+    )
+    share = np.linspace(0, 1, 20)[:, None]
+    points = [np.array(a) * (1 - share) + np.array(b) * share for a, b in lines]
+    return np.vstack([np.empty((0, 2)), *points])
+
+
+def _draw_objects(axes: Axes, world: World) -> None:
+    for label, (x, y) in world.objects.items():
+        axes.plot(
+            x,
+            y,
+            marker='s',
+            markersize=9,
+            color=OBJECTIVE,
+            markeredgecolor=INK,
+            markeredgewidth=0.9,
+            zorder=6,
+            gid=label,
+        )
+
+
+def _draw_attitudes(axes: Axes, plan: Plan, world: World) -> None:
+    reach = _size(world) / 26
+    placed = [(number, step) for number, step in enumerate(plan.steps, 1) if step.end]
+    for number, step in placed:
+        assert step.end is not None
+        x, y, heading = step.end.x, step.end.y, step.end.heading
+        color = _attitude_color(number, step, placed[0][0], placed[-1][0])
+        axes.annotate(
+            '',
+            xy=(x + reach * cos(heading), y + reach * sin(heading)),
+            xytext=(x, y),
+            arrowprops={
+                'arrowstyle': '-|>,head_width=0.3,head_length=0.6',
+                'color': color,
+                'linewidth': 2.2,
+                'shrinkA': 0,
+                'shrinkB': 0,
+                'path_effects': [withStroke(linewidth=4, foreground='white')],
+            },
+            zorder=7,
+        )
+        axes.plot(x, y, marker='o', markersize=14, color=color, mec='white', mew=1.2, zorder=8)
+        axes.annotate(
+            str(number),
+            (x, y),
+            ha='center',
+            va='center_baseline',
+            fontsize=9 if number < 100 else 6,
+            fontweight='bold',
+            color='white',
+            zorder=9,
+        )
+
+
+def _attitude_color(number: int, step: Step, first: int, last: int) -> str:
+    if number == first and step.assigned:
+        return START
+    return END if number == last else '#2c5f9e'
+
+
+def _draw_labels(
+    figure: Figure, axes: Axes, plan: Plan, world: World, lines: NDArray[np.float64]
+) -> None:
+    """Write the objects' names where they cover least, once the layout is settled."""
+    if not 0 < len(world.objects) <= MAX_LABELS:
+        return
+    halo = [withStroke(linewidth=3, foreground='white')]
+    texts = [
+        axes.annotate(
+            label,
+            (x, y),
+            xytext=(0, 0),
+            textcoords='offset pixels',
+            ha='center',
+            va='center',
+            fontsize=9.5,
+            color=INK,
+            path_effects=halo,
+            parse_math=False,
+            zorder=10,
+        )
+        for label, (x, y) in world.objects.items()
+    ]
+    figure.draw_without_rendering()
+    extents = [text.get_window_extent() for text in texts]
+    pixels = axes.transData.transform
+    anchors = [tuple(point) for point in pixels(list(world.objects.values()))]
+    attitudes = [step.end for step in plan.steps if step.end]
+    crowd = np.vstack(
+        [
+            pixels(lines.reshape(-1, 2)),
+            # Markers have an extent: five points each, weighed like a piece of the way.
+            *(_block(pixels(mark), 8) for mark in world.objects.values()),
+            *(_block(pixels((a.x, a.y)), 16) for a in attitudes),
+            *(_arrow_points(pixels((a.x, a.y)), a.heading) for a in attitudes),
+        ]
+    )
+    frame = axes.get_window_extent()
+    centers = place_labels(
+        anchors,
+        [(extent.width + 4, extent.height + 2) for extent in extents],
+        14.0,
+        crowd,
+        (frame.x0, frame.y0, frame.x1, frame.y1),
+    )
+    for text, anchor, center in zip(texts, anchors, centers, strict=True):
+        text.set_position((center[0] - anchor[0], center[1] - anchor[1]))
+
+
+def _block(center: NDArray[np.float64], half: float) -> NDArray[np.float64]:
+    offsets = np.linspace(-half, half, 5)
+    return np.array([(center[0] + dx, center[1] + dy) for dx in offsets for dy in offsets])
+
+
+def _arrow_points(origin: NDArray[np.float64], heading: float) -> NDArray[np.float64]:
+    reach = np.linspace(16, 64, 9)[:, None]
+    direction = np.array([cos(heading), sin(heading)])
+    points: NDArray[np.float64] = origin + reach * direction
+    return points
+
+
+def _legend(plan: Plan) -> list[Line2D | Patch]:
+    def dot(color: str, label: str, marker: str = 'o', edge: str = 'white') -> Line2D:
+        return Line2D(
+            [], [], ls='', marker=marker, ms=9, color=color, mec=edge, mew=0.9, label=label
+        )
+
+    handles: list[Line2D | Patch] = [
+        Patch(facecolor=OBSTACLE, edgecolor=OBSTACLE_EDGE, label='obstacle'),
+        dot(OBJECTIVE, 'object', 's', INK),
+    ]
+    if any(step.end for step in plan.steps):
+        handles += [
+            dot(START, 'start'),
+            dot('#2c5f9e', 'attitude of an action'),
+            dot(END, 'end'),
+            Line2D([], [], color=INK, lw=1.0, ls=(0, (4, 3)), label='view'),
+            Line2D([], [], color=PROGRESS(0.4), lw=2.4, label='way driven'),
+        ]
+    return handles
+
+
+def _size(world: World) -> float:
+    """The longer side of the map [m]."""
+    x_min, y_min, x_max, y_max = world.bounds
+    return max(x_max - x_min, y_max - y_min)

@@ -1,0 +1,1 @@
+"""``mission.mcap``: writing and reading what happened in a mission."""

@@ -1,0 +1,212 @@
+"""Planning with nodes that are there, missing, dying, slow or refusing; no ROS needed."""
+
+from __future__ import annotations
+
+import io
+import os
+import signal
+import sys
+from collections.abc import Callable
+from math import inf
+from pathlib import Path
+
+import pytest
+
+from interface_node.command_line import main as main_module
+from interface_node.command_line.console import Console
+from interface_node.command_line.errors import CommandError, Interrupted
+from interface_node.command_line.exit_codes import ExitCode, exit_code_of
+from interface_node.command_line.goals import MissionGoal
+from interface_node.command_line.interrupts import Interrupts
+from interface_node.command_line.missions import Mission, Source
+from interface_node.command_line.planning import checking, plan_mission, report, wait_for_nodes
+from interface_node.command_line.results import MissionResult, Progress
+from interface_node.plan import Diagnostic, Plan, Step
+
+SOURCE = Source('/abs/domain.lisp', 'domain.lisp', '(broken')
+GOAL = MissionGoal(Mission('survey', {'domain': SOURCE}))
+SOLVED = MissionResult(Plan('survey', 'SOLVED', steps=(Step(('!go', 'rover0')),)), ('a.json',))
+
+
+class FakeClient:
+    """Nodes that need some polls to appear and to plan."""
+
+    def __init__(
+        self,
+        result: MissionResult | None = SOLVED,
+        polls_to_appear: int = 0,
+        polls_to_plan: int = 2,
+        polls_to_vanish: float = inf,
+    ):
+        self.progress = Progress('searching')
+        self.result: MissionResult | None = None
+        self.cancelled = 0
+        self._outcome = result
+        self._to_appear = polls_to_appear
+        self._to_plan = polls_to_plan
+        self._to_vanish = polls_to_vanish
+        self._started = False
+
+    def missing(self) -> tuple[str, ...]:
+        self._to_appear -= 1
+        self._to_vanish -= 1
+        if self._to_appear >= 0 or self._to_vanish < 0:
+            return ('motion_planner_node', 'interface_node')
+        return ()
+
+    def start(self, goal: MissionGoal) -> None:
+        self._started = goal is GOAL
+
+    def wait(self, seconds: float) -> bool:
+        assert seconds <= 1.0
+        self._to_plan -= 1
+        if self._to_plan > 0:
+            return False
+        self.result = self._outcome
+        return self._started
+
+    def cancel(self) -> None:
+        self.cancelled += 1
+
+
+def quiet() -> Console:
+    return Console(io.StringIO(), io.StringIO(), {})
+
+
+def nothing() -> None:
+    """A check that finds nothing."""
+
+
+def test_nodes_may_take_a_while_to_appear() -> None:
+    wait_for_nodes(FakeClient(polls_to_appear=3), 60.0, '', nothing)
+
+
+def test_missing_nodes_are_named_with_how_to_start_them() -> None:
+    with pytest.raises(CommandError) as caught:
+        wait_for_nodes(FakeClient(polls_to_appear=10**9), 0.0, 'team', nothing)
+    assert caught.value.exit_code == 3
+    assert 'motion_planner_node and interface_node are not running' in caught.value.message
+    assert '`geohtn up --namespace team`' in caught.value.message
+
+
+def test_a_check_ends_the_waiting_for_nodes() -> None:
+    with pytest.raises(CommandError, match='died'):
+        wait_for_nodes(FakeClient(polls_to_appear=10**9), 60.0, '', dying(after=2))
+
+
+def test_a_mission_is_planned() -> None:
+    client = FakeClient()
+    assert plan_mission(client, GOAL, quiet(), nothing) is SOLVED
+    assert client.cancelled == 0
+
+
+def test_a_signal_cancels_the_mission() -> None:
+    client = FakeClient(polls_to_plan=10**9)
+    with Interrupts() as interrupts:
+        os.kill(os.getpid(), signal.SIGINT)
+        with pytest.raises(Interrupted) as caught:
+            plan_mission(client, GOAL, quiet(), checking(interrupts, nothing))
+    assert caught.value.signal_number == signal.SIGINT
+    assert client.cancelled == 1
+
+
+def test_a_dying_node_cancels_the_mission() -> None:
+    client = FakeClient(polls_to_plan=10**9)
+    with pytest.raises(CommandError, match='died'):
+        plan_mission(client, GOAL, quiet(), dying(after=3))
+    assert client.cancelled == 1
+
+
+def test_an_interface_that_vanishes_ends_the_waiting() -> None:
+    with pytest.raises(CommandError, match='went away') as caught:
+        plan_mission(FakeClient(polls_to_plan=10**9, polls_to_vanish=3), GOAL, quiet(), nothing)
+    assert caught.value.exit_code == 3
+
+
+def test_a_refused_mission_is_an_error() -> None:
+    with pytest.raises(CommandError, match='refused'):
+        plan_mission(FakeClient(result=None), GOAL, quiet(), nothing)
+
+
+def dying(after: int) -> Callable[[], None]:
+    left = [after]
+
+    def check() -> None:
+        left[0] -= 1
+        if left[0] < 0:
+            raise CommandError('it died', ExitCode.NO_NODE)
+
+    return check
+
+
+def test_a_plan_goes_to_standard_output() -> None:
+    out, err = io.StringIO(), io.StringIO()
+    assert report(SOLVED, GOAL, Console(out, err, {})) == 0
+    assert out.getvalue().startswith('SOLUTION PLAN:\n1:(!go rover0)\n\n')
+    assert out.getvalue().endswith('a.json\n')
+    assert err.getvalue() == ''
+
+
+def test_why_there_is_no_plan_goes_to_standard_error() -> None:
+    out, err = io.StringIO(), io.StringIO()
+    remark = Diagnostic('it is not closed', '/abs/domain.lisp', 1, 1, '(broken')
+    plan = Plan('survey', 'INVALID', 'the domain is wrong\nline two', (remark,))
+    assert report(MissionResult(plan), GOAL, Console(out, err, {})) == 2
+    assert out.getvalue() == ''
+    assert err.getvalue() == (
+        'domain.lisp:1:1: error: it is not closed\n'
+        '    (broken\n'
+        '    ^~~~~~~\n'
+        'geohtn: INVALID: the domain is wrong\n'
+        '    line two\n'
+    )
+
+
+@pytest.mark.parametrize(
+    ('outcome', 'code'),
+    [
+        ('SOLVED', 0),
+        ('NO_PLAN', 2),
+        ('LIMIT', 1),
+        ('CANCELLED', 130),
+        ('INVALID', 2),
+        ('UNAVAILABLE', 3),
+        ('FAILED', 1),
+        ('outcome 77', 1),
+    ],
+)
+def test_exit_codes_tell_outcomes_apart(outcome: str, code: int) -> None:
+    assert exit_code_of(outcome) == code
+
+
+FAKE_NODE = f"""#!{sys.executable}
+import signal, sys, time
+print('[INFO] [1.0] [node]: chatter', flush=True)
+print('[WARN] [1.0] [node]: careful', flush=True)
+"""
+
+
+@pytest.fixture
+def installation(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str, str], None]:
+    """Installs scripts as nodes into an ament prefix of their own."""
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+
+    def install(node: str, script: str) -> None:
+        marker = tmp_path / 'share' / 'ament_index' / 'resource_index' / 'packages' / node
+        marker.parent.mkdir(parents=True, exist_ok=True)
+        marker.touch()
+        executable = tmp_path / 'lib' / node / node
+        executable.parent.mkdir(parents=True)
+        executable.write_text(FAKE_NODE + script)
+        executable.chmod(0o755)
+
+    return install
+
+
+def test_a_node_that_is_not_installed_is_named(
+    installation: Callable[[str, str], None], capsys: pytest.CaptureFixture[str]
+) -> None:
+    installation('motion_planner_node', 'time.sleep(1000)')
+    assert main_module.main(['up']) == 1
+    assert 'geohtn: task_planner_node is not installed' in capsys.readouterr().err

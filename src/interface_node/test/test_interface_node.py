@@ -1,0 +1,338 @@
+"""The interface node among planners that do as they are told: outcomes, cancelling, recording."""
+
+from __future__ import annotations
+
+import json
+import os
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+import pytest
+import rclpy
+from action_msgs.msg import GoalStatus
+from geohtn_msgs import msg, srv
+from geohtn_msgs.action import PlanMission, PlanTasks
+from rclpy.action import ActionClient, ActionServer, CancelResponse
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.node import Node
+
+from interface_node.node import InterfaceNode
+from interface_node.plan import Plan
+from interface_node.recording.errors import RecordingError
+from interface_node.recording.message_conversions import EVENTS, read_messages
+from interface_node.replay_node import MotionPlannerUnavailable, replay
+from interface_node.waiting import wait_for, wait_until
+
+#: Of this process alone; above 101 domains share ports with other programs.
+DOMAIN = 1 + os.getpid() % 100
+
+
+def never() -> bool:
+    return False
+
+
+@contextmanager
+def spinning(make: Callable[[Context], Node]) -> Iterator[Any]:
+    """A node in a context and a thread of its own."""
+    context = Context()
+    rclpy.init(args=[], context=context, domain_id=DOMAIN)
+    node = make(context)
+    executor = MultiThreadedExecutor(num_threads=4, context=context)
+    executor.add_node(node)
+
+    def spin() -> None:
+        try:
+            executor.spin()
+        except ExternalShutdownException:
+            return
+
+    thread = threading.Thread(target=spin)
+    thread.start()
+    try:
+        yield node
+    finally:
+        executor.shutdown()
+        thread.join()
+        node.destroy_node()
+        rclpy.shutdown(context=context)
+
+
+class ObedientMotionPlanner(Node):
+    """Accepts every world but ``refuse``; answers a request by the length of its preconditions."""
+
+    def __init__(self, context: Context):
+        super().__init__('motion_planner_node', context=context)
+        self.extra = 0.0
+        self.create_service(srv.SetWorld, 'set_world', self._set_world)
+        self.create_service(srv.GetWorld, 'get_world', self._get_world)
+        self.create_service(srv.SatisfyPreconditions, 'satisfy_preconditions', self._satisfy)
+        self.create_service(srv.Advise, 'advise', self._advise)
+
+    def _set_world(self, request: Any, response: Any) -> Any:
+        response.accepted = request.yaml != 'refuse'
+        response.revision = 'r1'
+        if not response.accepted:
+            remark = msg.Diagnostic(source=request.source, line=2, column=3, message='wrong')
+            response.diagnostics = [remark]
+        return response
+
+    def _get_world(self, _: Any, response: Any) -> Any:
+        response.available = True
+        response.world = msg.World(source='w', revision='r1', x_max=80.0, y_max=60.0)
+        response.world.robots = [
+            msg.RobotModel(label='rover0', wheelbase=2.0, max_steering_angle=0.5, radius=1.0)
+        ]
+        response.world.objects = [
+            msg.WorldObject(label='tree', field_names=['x', 'y'], field_values=[40.0, 40.0])
+        ]
+        return response
+
+    def _satisfy(self, request: Any, response: Any) -> Any:
+        length = len(request.request.preconditions) + self.extra
+        response.answer = msg.GeometricAnswer(length=length, time_spent=monotonic())
+        return response
+
+    def _advise(self, request: Any, response: Any) -> Any:
+        response.answer = msg.AdviceAnswer(order=range(len(request.request.preconditions)))
+        return response
+
+
+class ObedientTaskPlanner(Node):
+    """Does what the text of the domain says: solve, jump, search or break."""
+
+    def __init__(self, context: Context, steps: list[msg.Step]):
+        super().__init__('task_planner_node', context=context)
+        self._steps = steps
+        self._events = self.create_publisher(msg.PlanningEvent, 'planning_events', 100)
+        self.searching, self.cancelled = threading.Event(), threading.Event()
+        self._server = ActionServer(
+            self,
+            PlanTasks,
+            'plan_tasks',
+            self._execute,
+            cancel_callback=lambda _: CancelResponse.ACCEPT,
+            callback_group=ReentrantCallbackGroup(),
+        )
+
+    def destroy_node(self) -> None:
+        self._server.destroy()
+        super().destroy_node()
+
+    def _execute(self, handle: Any) -> PlanTasks.Result:
+        goal = handle.request
+        result = PlanTasks.Result(outcome=msg.Outcome(value=msg.Outcome.SOLVED))
+        handle.publish_feedback(
+            PlanTasks.Feedback(progress=msg.PlanningProgress(phase='searching'))
+        )
+        if goal.domain.text == 'search':
+            self.searching.set()
+            wait_until(lambda: handle.is_cancel_requested, monotonic() + 20, never)
+            self.cancelled.set()
+            result.outcome.value = msg.Outcome.CANCELLED
+            handle.canceled()
+            return result
+        if goal.domain.text == 'break':
+            raise RuntimeError('broken on purpose')
+        result.steps = (
+            [self._steps[0], self._steps[3]] if goal.domain.text == 'jump' else self._steps
+        )
+        # Of another mission, and therefore not to be recorded.
+        self._exchange('other')
+        for _ in range(3):
+            self._exchange(goal.mission)
+        result.statistics.answers = 3
+        result.statistics.planning_time = 0.5
+        handle.succeed()
+        return result
+
+    def _exchange(self, mission: str) -> None:
+        request = msg.GeometricRequest(mission=mission, preconditions='four', request_id='1')
+        self._events.publish(
+            msg.PlanningEvent(request=[request], answer=[msg.GeometricAnswer(length=4.0)])
+        )
+
+
+class Client(Node):
+    """Asks for missions."""
+
+    def __init__(self, context: Context):
+        super().__init__('client', context=context)
+        self.feedback: list[str] = []
+        self._client = ActionClient(self, PlanMission, 'plan_mission')
+
+    def destroy_node(self) -> None:
+        self._client.destroy()
+        super().destroy_node()
+
+    def send(self, domain: str = 'solve', **fields: Any) -> Any:
+        fields.setdefault('problem', msg.SourceText(text='problem'))
+        fields.setdefault('world', msg.SourceText(path='w.yaml', text='world'))
+        goal = PlanMission.Goal(mission='small', domain=msg.SourceText(text=domain), **fields)
+        wait_until(self._client.server_is_ready, monotonic() + 10, never)
+        sent = self._client.send_goal_async(
+            goal, feedback_callback=lambda f: self.feedback.append(f.feedback.progress.phase)
+        )
+        return wait_for(sent, monotonic() + 10, never)
+
+    def plan(self, domain: str = 'solve', **fields: Any) -> Any:
+        handle = self.send(domain, **fields)
+        assert handle.accepted
+        return wait_for(handle.get_result_async(), monotonic() + 20, never)
+
+
+@dataclass
+class Team:
+    """The node under test, its client, and the planners."""
+
+    client: Client
+    node: InterfaceNode
+    motion_planner: ObedientMotionPlanner
+    task_planner: ObedientTaskPlanner
+
+
+@pytest.fixture
+def interface() -> Iterator[InterfaceNode]:
+    with spinning(lambda context: InterfaceNode(context=context)) as node:
+        yield node
+
+
+@pytest.fixture
+def client(interface: InterfaceNode) -> Iterator[Client]:
+    with spinning(Client) as node:
+        yield node
+
+
+@pytest.fixture
+def team(client: Client, interface: InterfaceNode, sample_steps: list[msg.Step]) -> Iterator[Team]:
+    with (
+        spinning(ObedientMotionPlanner) as motion_planner,
+        spinning(lambda context: ObedientTaskPlanner(context, sample_steps)) as task_planner,
+    ):
+        yield Team(client, interface, motion_planner, task_planner)
+
+
+def test_a_mission_is_planned_published_and_written(
+    team: Team, tmp_path: Path, sample_plan: Plan
+) -> None:
+    out = tmp_path / 'new' / 'out'
+    answer = team.client.plan(output_directory=str(out))
+    assert answer.status == GoalStatus.STATUS_SUCCEEDED
+    result = answer.result
+    assert result.outcome.value == msg.Outcome.SOLVED, result.outcome.explanation
+    assert result.plan.length == pytest.approx(sample_plan.length)
+    assert set(result.files) == {str(file) for file in out.iterdir()}
+    assert sorted(file.name for file in out.iterdir()) == [
+        'mission.mcap',
+        'mission.png',
+        'plan.json',
+    ]
+    document = json.loads((out / 'plan.json').read_text(encoding='utf-8'))
+    assert [tuple(step['action']) for step in document['steps']] == [
+        step.action for step in sample_plan.steps
+    ]
+    recorded = list(read_messages(out / 'mission.mcap'))
+    events = [found.message for found in recorded if found.topic == EVENTS]
+    assert len(events) == 3
+    assert len({event.request[0].mission for event in events}) == 1
+    topics = {found.topic for found in recorded}
+    assert topics >= {'/global_plan', '/path', '/map', '/markers', '/mission/outcome'}
+    assert [p for p in team.client.feedback if p != 'searching'] == [
+        'loading',
+        'checking',
+        'writing',
+    ]
+
+
+def test_a_recording_is_replayed_and_differences_are_told(
+    team: Team, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(DOMAIN))
+    team.client.plan(output_directory=str(tmp_path))
+    report = replay(tmp_path / 'mission.mcap')
+    assert (report.requests, report.equal, report.same) == (3, 3, True)
+    team.motion_planner.extra = 0.5
+    report = replay(tmp_path / 'mission.mcap')
+    assert (report.equal, report.same) == (0, False)
+    assert report.differences[0].endswith('length was 4.0 and now is 4.5')
+
+
+def test_without_a_motion_planner_there_is_no_replay(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(DOMAIN))
+    (tmp_path / 'no.mcap').write_bytes(b'no')
+    with pytest.raises(RecordingError):
+        replay(tmp_path / 'no.mcap')
+    world = msg.SourceText(text='world')
+    monkeypatch.setattr('interface_node.replay_node._read', lambda _: (world, []))
+    with pytest.raises(MotionPlannerUnavailable, match='is not running'):
+        replay(tmp_path / 'no.mcap')
+
+
+def test_missing_planners_are_named_within_five_seconds(client: Client, tmp_path: Path) -> None:
+    started = monotonic()
+    result = client.plan(output_directory=str(tmp_path)).result
+    assert monotonic() - started < 5.0
+    assert result.outcome.value == msg.Outcome.UNAVAILABLE
+    for name in ('motion_planner_node', 'task_planner_node'):
+        assert f'ros2 run {name} {name}' in result.outcome.explanation
+    document = json.loads((tmp_path / 'plan.json').read_text(encoding='utf-8'))
+    assert document['outcome'] == 'UNAVAILABLE'
+
+
+def test_bad_input_is_told_and_the_next_mission_is_planned(team: Team, tmp_path: Path) -> None:
+    missing = str(tmp_path / 'none.lisp')
+    result = team.client.plan(problem=msg.SourceText(path=missing)).result
+    assert result.outcome.value == msg.Outcome.INVALID
+    assert [remark.source for remark in result.outcome.diagnostics] == [missing]
+    result = team.client.plan(world=msg.SourceText(path='w.yaml', text='refuse')).result
+    assert result.outcome.value == msg.Outcome.INVALID
+    (remark,) = result.outcome.diagnostics
+    assert (remark.source, remark.line, remark.column) == ('w.yaml', 2, 3)
+    answer = team.client.plan('break')
+    assert answer.result.outcome.value == msg.Outcome.FAILED
+    assert answer.status == GoalStatus.STATUS_ABORTED
+    assert 'task_planner_node' in answer.result.outcome.explanation
+    assert team.client.plan().result.outcome.value == msg.Outcome.SOLVED
+
+
+def test_steps_that_do_not_fit_together_are_no_plan(team: Team, tmp_path: Path) -> None:
+    (tmp_path / 'mission.png').write_bytes(b'of an earlier mission')
+    answer = team.client.plan('jump', output_directory=str(tmp_path))
+    assert answer.status == GoalStatus.STATUS_ABORTED
+    outcome = answer.result.outcome
+    assert outcome.value == msg.Outcome.FAILED
+    assert 'step 2, (!take_photo rover0 gate cam_0)' in outcome.explanation
+    assert answer.result.plan.steps == []
+
+
+def test_where_nothing_can_be_written_the_plan_is_returned_all_the_same(
+    team: Team, tmp_path: Path
+) -> None:
+    (tmp_path / 'file').write_bytes(b'')
+    result = team.client.plan(output_directory=str(tmp_path / 'file' / 'out')).result
+    assert result.outcome.value == msg.Outcome.SOLVED
+    assert result.plan.steps
+    assert result.files == []
+    assert 'nothing can be written' in result.outcome.explanation
+
+
+def test_a_mission_is_cancelled_in_mid_search_and_only_one_runs_at_a_time(team: Team) -> None:
+    handle = team.client.send('search')
+    assert team.task_planner.searching.wait(10)
+    assert not team.client.send().accepted, 'one mission at a time'
+    started = monotonic()
+    handle.cancel_goal_async()
+    answer = wait_for(handle.get_result_async(), monotonic() + 10, never)
+    assert monotonic() - started < 1.0
+    assert answer.status == GoalStatus.STATUS_CANCELED
+    assert answer.result.outcome.value == msg.Outcome.CANCELLED
+    assert team.task_planner.cancelled.is_set()
+    assert team.client.plan().result.outcome.value == msg.Outcome.SOLVED

@@ -1,0 +1,94 @@
+"""The picture shows what it should, and its labels keep out of the way."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from io import BytesIO
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from matplotlib.collections import LineCollection
+from matplotlib.image import imread
+from matplotlib.patches import Circle, Polygon
+
+from interface_node.picture import draw, write_picture
+from interface_node.picture.labels import place_labels
+from interface_node.plan import Plan, World
+
+
+def test_everything_is_drawn(sample_plan: Plan) -> None:
+    (axes,) = draw(sample_plan).axes
+    texts = {text.get_text() for text in axes.texts}
+    assert texts >= {'base', 'tree', 'gate', '1', '2', '4'}
+    assert '3' not in texts, 'a purely symbolic action has no place on a map'
+    assert sum(isinstance(patch, Circle) for patch in axes.patches) == 1
+    wall = next(patch for patch in axes.patches if isinstance(patch, Polygon))
+    assert [tuple(corner) for corner in wall.get_xy()[:-1]] == [
+        (30.0, 0.0),
+        (33.0, 0.0),
+        (33.0, 10.0),
+        (30.0, 10.0),
+    ]
+    assert {line.get_gid() for line in axes.lines} >= {'base', 'tree', 'gate'}
+    way, views = (
+        list(lines.get_segments())
+        for lines in axes.collections
+        if isinstance(lines, LineCollection)
+    )
+    driven = np.array(way)
+    assert tuple(driven[0, 0]) == (10.0, 10.0)
+    last = sample_plan.steps[-1].end
+    assert last is not None
+    np.testing.assert_allclose(driven[-1, 1], (last.x, last.y), atol=1e-9)
+    assert [tuple(view[1]) for view in views] == [(40.0, 40.0), (70.0, 15.0)]
+    assert axes.get_title(loc='left') == 'small: 4 actions, 36 m'
+
+
+def test_the_picture_is_a_png_of_some_size_and_always_the_same(sample_plan: Plan) -> None:
+    first = write_picture(sample_plan)
+    pixels = imread(BytesIO(first))
+    assert pixels.shape[:2] == (1200, 1600)
+    assert pixels.std() > 0.02
+    assert write_picture(sample_plan) == first
+
+
+def test_without_a_plan_the_world_is_drawn(sample_plan: Plan) -> None:
+    (axes,) = draw(replace(sample_plan, outcome='NO_PLAN', steps=())).axes
+    assert axes.get_title(loc='left') == 'small: NO_PLAN'
+    assert len(axes.patches) == 2
+
+
+@pytest.mark.parametrize('bounds', [(0.0, 0.0, 1.0, 1e4), (-1e9, 0.0, 1e9, 1.0)])
+def test_worlds_of_odd_shapes_are_drawn(
+    sample_plan: Plan, bounds: tuple[float, float, float, float]
+) -> None:
+    write_picture(replace(sample_plan, world=World('', 'r', bounds), steps=()))
+
+
+def test_a_name_with_dollars_is_no_formula(sample_plan: Plan) -> None:
+    world = World('', 'r', (0.0, 0.0, 9.0, 9.0), {r'$\frac$': (5.0, 5.0)})
+    write_picture(replace(sample_plan, mission=r'$\no$', world=world, steps=()))
+
+
+def test_a_plan_without_a_world_cannot_be_drawn(sample_plan: Plan) -> None:
+    with pytest.raises(ValueError, match='without a world'):
+        draw(replace(sample_plan, world=None))
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    st.lists(st.tuples(st.integers(1, 14), st.integers(1, 14)), min_size=1, max_size=3, unique=True)
+)
+def test_labels_with_room_overlap_neither_each_other_nor_the_edge(
+    places: list[tuple[int, int]],
+) -> None:
+    anchors = [(x * 75.0, y * 15.0 + 300) for x, y in places]
+    sizes = [(80.0, 20.0)] * len(anchors)
+    centers = place_labels(anchors, sizes, 14.0, np.empty((0, 2)), (0.0, 0.0, 1200.0, 1200.0))
+    for index, (x, y) in enumerate(centers):
+        assert 40 <= x <= 1160
+        assert 10 <= y <= 1190
+        for other_x, other_y in centers[:index]:
+            assert abs(x - other_x) >= 80 or abs(y - other_y) >= 20
