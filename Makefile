@@ -2,6 +2,7 @@
 
 PYTHON ?= python3
 RUN := ros2_ws/run
+TYPECHECKS := mypy $(foreach file,$(wildcard src/*/test/conftest.py),'mypy $(file)')
 
 .DEFAULT_GOAL := help
 .PHONY: help setup mission test format lint typecheck experiments experiment-mission clean
@@ -21,7 +22,7 @@ mission: setup ## Plan the paper's rover mission with the three nodes; results i
 
 test: setup ## Check format, lint and types, then run all tests
 	@status=0; \
-	for check in 'ruff format --check .' 'ruff check .' mypy pytest; do \
+	for check in 'ruff format --check .' 'ruff check .' $(TYPECHECKS) pytest; do \
 	  echo "== $$check"; $(RUN) $$check || status=1; \
 	done; exit $$status
 
@@ -34,12 +35,12 @@ lint: setup ## Check format and lint
 	@$(RUN) ruff check .
 
 typecheck: setup ## Check the types
-	@$(RUN) mypy
+	@status=0; for check in $(TYPECHECKS); do $(RUN) $$check || status=1; done; exit $$status
 
 experiments: experiment-mission ## Run all experiments; results in out/experiments
 
 experiment-mission: setup ## Measure the rover mission: planning time and where it goes
-	@$(RUN) python experiments/mission/run.py
+	@$(RUN) python -m experiments.mission.run
 
 clean: ## Remove what the set-up made and all caches, but not out/
 	rm -rf .venv ros2_ws/build ros2_ws/install ros2_ws/log .mypy_cache .pytest_cache .ruff_cache .hypothesis

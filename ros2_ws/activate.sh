@@ -11,5 +11,4 @@ if [ -n "${ZSH_VERSION:-}" ]; then
 else
   . "$_geohtn_ws/install/local_setup.bash"
 fi
-export PATH="$_geohtn_ws/install/interface_node/lib/interface_node:$PATH"
 unset _geohtn_ws

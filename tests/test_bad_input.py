@@ -58,14 +58,14 @@ ON_THE_START = (
 )
 
 FAULTS = [
-    Fault('missing file', 'domain.lisp', Path.unlink, ('domain.lisp', 'no such file|not found')),
+    Fault('missing file', 'domain.lisp', Path.unlink, ('domain.lisp', 'does not exist')),
     Fault(
         'unbalanced parenthesis',
         'domain.lisp',
         replaced(
             '(rel_angle(?r,?o) = cos-and-sin(pi/2)))', '(rel_angle(?r,?o) = cos-and-sin(pi/2))'
         ),
-        ('parenthes', '!take_photo'),
+        (r"'\)' is missing", '!take_photo'),
         line_of('domain.lisp', '(Operator (!take_photo'),
     ),
     Fault(
@@ -79,7 +79,7 @@ FAULTS = [
         'object missing in the world',
         'world.yaml',
         replaced('  location3: {x: 362, y: 350}\n', ''),
-        ('location3', 'world'),
+        ('unknown object', 'location3'),
     ),
     Fault(
         'unknown agent',
@@ -145,8 +145,8 @@ FAULTS = [
         'contradictory constraints',
         'domain.lisp',
         replaced('(distance(?r, ?o) >= 50)', '(distance(?r, ?o) >= 160)'),
-        ('160', '100', 'contradict'),
-        line_of('domain.lisp', '(distance(?r, ?o) >= 50)'),
+        ('>= 160', '<= 100', 'exclude each other'),
+        line_of('domain.lisp', '(distance(?r, ?o) <= 100)'),
     ),
     Fault(
         'coordinate that is not a number',
@@ -163,7 +163,7 @@ FAULTS = [
         line_of('world.yaml', 'location3:'),
     ),
     *(
-        Fault(f'50 MB of {file}', file, lambda path: path.write_bytes(b'(' * HUGE), ('MB|MiB',))
+        Fault(f'50 MB of {file}', file, lambda path: path.write_bytes(b'(' * HUGE), ('50.0 MiB', 'at most 1 MiB'))
         for file in ('domain.lisp', 'problem.lisp', 'world.yaml')
     ),
     *(

@@ -257,6 +257,26 @@ def test_the_build_sees_neither_its_own_results_nor_the_outer_make(tmp_path: Pat
     assert 'PYTHONPATH' not in beside_wheels
 
 
+@pytest.mark.parametrize(('moved', 'code'), [(False, 0), (True, 2)])
+def test_the_environment_of_a_checkout_that_was_moved_is_refused(
+    tmp_path: Path, moved: bool, code: int
+) -> None:
+    layout = checkout(tmp_path / 'checkout')
+    workspace = '/elsewhere/ros2_ws' if moved else layout.workspace
+    program = f'_geohtn_ws={workspace}\n{environment.script(layout, None)}echo "$ROS_DISTRO"\n'
+    (tmp_path / 'environment.sh').write_text(program)
+    ended = subprocess.run(
+        ['bash', '-c', f'. {tmp_path}/environment.sh'],
+        capture_output=True,
+        text=True,
+        check=False,
+        env={'PATH': '/usr/bin:/bin'},
+    )
+    assert ended.returncode == code
+    assert ended.stdout == ('' if moved else 'jazzy\n')
+    assert ('make setup' in ended.stderr) == moved
+
+
 # Failing and waiting
 
 

@@ -50,7 +50,9 @@ def build(layout: Layout, ros: SourcedRos | None, venv: str) -> None:
         stamps.write(environment_stamp, venv)
     stamp.unlink(missing_ok=True)
     running.touch()
-    _colcon(layout, ros, 'about a minute' if first else 'a few seconds, a minute for new messages')
+    _colcon(
+        layout, ros, 'one to three minutes' if first else 'seconds; a minute or two for messages'
+    )
     running.unlink()
     stamps.write(stamp, made_from)
 

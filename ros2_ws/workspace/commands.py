@@ -78,10 +78,12 @@ def _failure(what: str, code: int, log: Path) -> str:
 
 
 def telling_lines(text: str) -> list[str]:
-    """The lines of a log that say what went wrong: its error lines, or else its last lines."""
+    """The lines of a log that say what went wrong: from its first error on, or else its last lines."""
     lines = [line.rstrip() for line in text.splitlines() if line.strip()]
-    errors = [line for line in lines if 'error:' in line.lower() or 'CMake Error' in line]
-    return (errors or lines)[-SHOWN_LINES:]
+    for number, line in enumerate(lines):
+        if 'error:' in line.lower() or 'CMake Error' in line:
+            return lines[number : number + SHOWN_LINES]
+    return lines[-SHOWN_LINES:]
 
 
 def complain(text: str) -> None:

@@ -62,7 +62,13 @@ def build_environment(
 
 def script(layout: Layout, ros: SourcedRos | None) -> str:
     """The same for a shell to source (bash or zsh)."""
-    lines = ['# Written by the set-up; sourced by ros2_ws/activate.sh.']
+    lines = [
+        '# Written by the set-up; sourced by ros2_ws/activate.sh.',
+        f'if [ "$_geohtn_ws" != {shlex.quote(str(layout.workspace))} ]; then',
+        '  echo "This checkout was moved: run make setup in $(dirname "$_geohtn_ws") again." >&2',
+        '  return 2',
+        'fi',
+    ]
     if ros is not None:
         hint = f'GeoHTN was set up with the ROS 2 in {ros.prefix}: source it first.'
         lines += [

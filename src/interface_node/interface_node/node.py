@@ -187,7 +187,9 @@ class InterfaceNode(Node):
             ).run()
         finally:
             outputs.abandon()
-        self.get_logger().info(f'mission {mission_id}: {result.outcome.explanation or "planned"}')
+        if self.context.ok():
+            explanation = result.outcome.explanation or 'planned'
+            self.get_logger().info(f'mission {mission_id}: {explanation}')
         return result
 
     def _report(self, handle: ServerGoalHandle, progress: PlanningProgress) -> None:

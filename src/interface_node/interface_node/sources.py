@@ -30,7 +30,7 @@ def read_source(kind: str, path: str, text: str) -> str:
     source = path or kind
     data = text.encode('utf-8', 'surrogatepass') if text else _read(kind, path)
     if len(data) > MAX_BYTES:
-        raise _error(source, f'the {kind} has {len(data)} bytes; at most {MAX_BYTES} are read')
+        raise _error(source, _too_long(kind, len(data)))
     try:
         text = data.decode('utf-8')
     except UnicodeDecodeError as error:
@@ -55,9 +55,7 @@ def _read(kind: str, path: str) -> bytes:
         if not stat.S_ISREG(status.st_mode):
             raise _error(path, f'the {kind} is no regular file')
         if status.st_size > MAX_BYTES:
-            raise _error(
-                path, f'the {kind} has {status.st_size} bytes; at most {MAX_BYTES} are read'
-            )
+            raise _error(path, _too_long(kind, status.st_size))
         with file.open('rb') as content:
             return content.read(MAX_BYTES + 1)
     except FileNotFoundError:
@@ -67,6 +65,10 @@ def _read(kind: str, path: str) -> bytes:
         raise _error(path, f'the {kind} cannot be read: {error.strerror}') from None
     except ValueError:
         raise _error(kind, f'the path of the {kind} holds a null character') from None
+
+
+def _too_long(kind: str, size: int) -> str:
+    return f'the {kind} has {size / 2**20:.1f} MiB; at most {MAX_BYTES / 2**20:g} MiB are read'
 
 
 def _error(source: str, message: str, before: str | None = None) -> SourceError:

@@ -5,14 +5,11 @@ from __future__ import annotations
 import io
 import os
 import signal
-import sys
 from collections.abc import Callable
 from math import inf
-from pathlib import Path
 
 import pytest
 
-from interface_node.command_line import main as main_module
 from interface_node.command_line.console import Console
 from interface_node.command_line.errors import CommandError, Interrupted
 from interface_node.command_line.exit_codes import ExitCode, exit_code_of
@@ -162,6 +159,24 @@ def test_why_there_is_no_plan_goes_to_standard_error() -> None:
     )
 
 
+def test_an_explanation_does_not_repeat_the_diagnostics() -> None:
+    remark = Diagnostic('it is not closed', '/abs/domain.lisp', 1, 1)
+    for explanation, expected in (
+        (str(remark), 'geohtn: INVALID: 1 error in the mission\n'),
+        (f'{remark}\nmore', 'geohtn: INVALID: more\n'),
+    ):
+        err = io.StringIO()
+        plan = Plan('survey', 'INVALID', explanation, (remark,))
+        report(MissionResult(plan), GOAL, Console(io.StringIO(), err, {}))
+        assert err.getvalue().endswith(f'    ^\n{expected}')
+
+
+def test_without_an_explanation_that_is_said() -> None:
+    err = io.StringIO()
+    assert report(MissionResult(Plan('s', 'FAILED')), GOAL, Console(io.StringIO(), err, {})) == 1
+    assert err.getvalue() == 'geohtn: FAILED: the nodes did not say why\n'
+
+
 @pytest.mark.parametrize(
     ('outcome', 'code'),
     [
@@ -177,36 +192,3 @@ def test_why_there_is_no_plan_goes_to_standard_error() -> None:
 )
 def test_exit_codes_tell_outcomes_apart(outcome: str, code: int) -> None:
     assert exit_code_of(outcome) == code
-
-
-FAKE_NODE = f"""#!{sys.executable}
-import signal, sys, time
-print('[INFO] [1.0] [node]: chatter', flush=True)
-print('[WARN] [1.0] [node]: careful', flush=True)
-"""
-
-
-@pytest.fixture
-def installation(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str, str], None]:
-    """Installs scripts as nodes into an ament prefix of their own."""
-    monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path))
-    monkeypatch.chdir(tmp_path)
-
-    def install(node: str, script: str) -> None:
-        marker = tmp_path / 'share' / 'ament_index' / 'resource_index' / 'packages' / node
-        marker.parent.mkdir(parents=True, exist_ok=True)
-        marker.touch()
-        executable = tmp_path / 'lib' / node / node
-        executable.parent.mkdir(parents=True)
-        executable.write_text(FAKE_NODE + script)
-        executable.chmod(0o755)
-
-    return install
-
-
-def test_a_node_that_is_not_installed_is_named(
-    installation: Callable[[str, str], None], capsys: pytest.CaptureFixture[str]
-) -> None:
-    installation('motion_planner_node', 'time.sleep(1000)')
-    assert main_module.main(['up']) == 1
-    assert 'geohtn: task_planner_node is not installed' in capsys.readouterr().err

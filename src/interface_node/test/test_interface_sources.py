@@ -37,8 +37,9 @@ def test_a_text_of_the_largest_size_is_read(tmp_path: Path) -> None:
         (b'good\nb\xc3\xa9d \xff', 2, 5, '0xff'),
         (b'\x89PNG\r\n', 1, 1, '0x89'),
         (b'one\ntwo\0', 2, 4, 'null character'),
-        (b'a' * (MAX_BYTES + 1), 0, 0, f'{MAX_BYTES + 1} bytes'),
+        (b'a' * (MAX_BYTES + 1), 0, 0, 'at most 1 MiB'),
     ],
+    ids=['a byte that is no UTF-8', 'a picture', 'a null character', 'a byte too long'],
 )
 def test_a_bad_file_is_named_with_the_place(
     tmp_path: Path, content: bytes, line: int, column: int, words: str
@@ -70,5 +71,5 @@ def test_a_mission_without_a_text_or_a_path_is_refused() -> None:
 
 
 def test_a_text_that_was_given_is_limited_as_well() -> None:
-    with pytest.raises(SourceError, match=f'at most {MAX_BYTES}'):
+    with pytest.raises(SourceError, match='at most 1 MiB'):
         read_source('world', '', 'é' * (MAX_BYTES // 2 + 1))

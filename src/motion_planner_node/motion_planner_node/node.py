@@ -94,7 +94,6 @@ class MotionPlannerNode(Node):
         self.create_service(srv.CheckPreconditions, 'check_preconditions', self._check)
         self.create_service(srv.SetWorld, 'set_world', self._set_world)
         self.create_service(srv.GetWorld, 'get_world', self._get_world)
-        self.get_logger().info('ready')
 
     # ---- parameters
 
@@ -303,14 +302,17 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _serve() -> None:
-    node = MotionPlannerNode()
     executor = SingleThreadedExecutor()
     try:
-        executor.add_node(node)
-        executor.spin()
+        node = MotionPlannerNode()
+        try:
+            executor.add_node(node)
+            node.get_logger().info('ready')
+            executor.spin()
+        finally:
+            node.destroy_node()
     finally:
         executor.shutdown()
-        node.destroy_node()
 
 
 def _usage(arguments: list[str]) -> int:

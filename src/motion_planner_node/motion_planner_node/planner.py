@@ -90,7 +90,8 @@ class MotionPlanner:
         ground: Ground,
         should_stop: ShouldStop,
     ) -> GeometricAnswer:
-        key = (request.preconditions, tuple(problem.state.items()), request.seed)
+        state = tuple(problem.state.items())
+        key = (request.preconditions, problem.agent, state, request.seed)
         stream = self._streams.get(
             key, lambda: Stream(problem, ground, self._parameters, request.seed)
         )

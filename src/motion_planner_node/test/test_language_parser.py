@@ -78,7 +78,7 @@ def error_of(text: str) -> tuple[int, int, str]:
     return diagnostic.line, diagnostic.column, diagnostic.message
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(PRECONDITIONS)
 def test_what_is_written_reads_back_as_the_same(preconditions: Preconditions) -> None:
     assert parse(to_text(preconditions)) == preconditions
@@ -198,7 +198,7 @@ FRAGMENTS = st.lists(st.sampled_from(VOCABULARY.split()) | st.sampled_from(' \n'
 )
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=200, deadline=None)
 @given(st.text(max_size=60) | FRAGMENTS)
 def test_any_text_is_read_or_refused_with_a_place(text: str) -> None:
     try:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from itertools import chain, repeat
 from math import inf, nan, pi
+from typing import Any
 
 import pytest
 
@@ -41,8 +43,8 @@ def near(label: str, distance: float, agent: str = 'rover0') -> str:
     return f'((agent {agent})(object {label})(distance({agent}, {label}) <= {distance:g}))'
 
 
-def ask(preconditions: str, **more: object) -> GeometricAnswer:
-    fields = {'start': START} | more
+def ask(preconditions: str, **more: Any) -> GeometricAnswer:
+    fields: dict[str, Any] = {'start': START} | more
     return PLANNER.satisfy(GeometricRequest(preconditions, **fields))
 
 
@@ -53,6 +55,20 @@ def test_a_request_that_holds_at_the_start_needs_no_motion() -> None:
     assert answer.motion.segments == ()
     assert answer.length == 0.0
     assert answer.end == START
+
+
+def test_a_robot_stays_even_in_a_dead_end_when_nothing_asks_it_to_move() -> None:
+    start = {'rover0': Attitude(160.0, 160.0, pi / 2)}
+    answer = ask(near('pocket', 30.0), start=start)
+    assert answer.status is Status.FOUND
+    assert answer.end == start
+
+
+def test_a_place_with_room_to_turn_is_preferred() -> None:
+    answer = ask(near('pocket', 18.0), start={'rover0': Attitude(160.0, 60.0 + 40.0, pi / 2)})
+    assert answer.status is Status.FOUND
+    end = answer.end['rover0']
+    assert end.y < 150.0 or abs(end.x - 160.0) > 10.0
 
 
 def test_no_constraints_at_all_hold_where_the_robot_is() -> None:
@@ -190,6 +206,15 @@ def test_where_another_agent_matters_a_proof_holds_for_now() -> None:
     assert (answer.code, answer.scope) == (Code.UNREACHABLE, Scope.THIS_START)
 
 
+def test_the_request_says_which_of_several_agents_moves() -> None:
+    start = {**START, 'rover1': Attitude(180.0, 100.0, 0.0)}
+    text = '((agent rover0)(agent rover1)(distance(rover0, rover1) <= 60))'
+    for agent in ('rover0', 'rover1'):
+        answer = ask(text, start=start, agent=agent)
+        assert answer.status is Status.FOUND
+        assert [label for label in start if answer.end[label] != start[label]] == [agent]
+
+
 def test_constraints_that_no_descent_meets_are_unknown() -> None:
     answer = ask('((agent rover0)(rover0.heading > pi))')
     assert answer.status in {Status.UNKNOWN, Status.IMPOSSIBLE}
@@ -200,8 +225,8 @@ def test_a_deadline_leaves_the_answer_open_and_nothing_behind() -> None:
     planner = MotionPlanner(PLANNER.world)
     request = GeometricRequest(near('tree', 30.0), START)
     for polls in range(6):
-        left = iter(range(polls))
-        answer = planner.satisfy(request, lambda left=left: next(left, None) is None)
+        left = chain([False] * polls, repeat(object=True))
+        answer = planner.satisfy(request, left.__next__)
         assert answer.code in {Code.OUT_OF_TIME, Code.NONE}
     assert planner.satisfy(request, lambda: True).code in {Code.OUT_OF_TIME, Code.NONE}
     assert planner.satisfy(request) == MotionPlanner(PLANNER.world).satisfy(request)

@@ -102,13 +102,12 @@ def check_found(answer: GeometricAnswer, start: Attitude, label: str) -> None:
     assert abs(left + 1.0) < 1e-6
     assert all(residual.satisfied for residual in answer.residuals)
     assert len(answer.residuals) == 3
-    assert answer.length == pytest.approx(
-        sum(segment.length for segment in answer.motion.segments)
-    )
+    assert answer.length == pytest.approx(sum(segment.length for segment in answer.motion.segments))
 
 
-def photo(label: str, start: Attitude, **more: int) -> GeometricRequest:
-    return GeometricRequest(PHOTO.format(label), {'rover0': start}, **more)
+def photo(label: str, start: Attitude, *, alternative: int = 0, seed: int = 0) -> GeometricRequest:
+    text, state = PHOTO.format(label), {'rover0': start}
+    return GeometricRequest(text, state, alternative=alternative, seed=seed)
 
 
 def test_the_whole_tour_of_the_paper_is_driven() -> None:
@@ -116,6 +115,15 @@ def test_the_whole_tour_of_the_paper_is_driven() -> None:
     for label in LOCATIONS:
         answer = PLANNER.satisfy(photo(label, here))
         check_found(answer, here, label)
+        here = answer.end['rover0']
+
+
+@pytest.mark.parametrize('seed', range(1, 9))
+def test_no_tour_ends_in_a_dead_end(seed: int) -> None:
+    here = START['rover0']
+    for label in LOCATIONS:
+        answer = PLANNER.satisfy(photo(label, here, seed=seed))
+        assert answer.status is Status.FOUND, answer.message
         here = answer.end['rover0']
 
 
@@ -132,12 +140,17 @@ def test_whatever_is_found_from_anywhere_is_right(start: Attitude, label: str, s
             assert shapely.distance(point, OBSTACLES) < CAR['radius'] + 1e-3
 
 
-def test_alternatives_are_right_and_really_differ() -> None:
-    parameters = Parameters()
+@pytest.mark.parametrize(
+    'parameters', [Parameters(), Parameters(alternative_distance=55.0, alternative_heading=1.5)]
+)
+def test_alternatives_are_right_and_really_differ(parameters: Parameters) -> None:
+    planner = MotionPlanner(PLANNER.world, parameters)
     ends: list[Attitude] = []
     for alternative in range(8):
-        answer = PLANNER.satisfy(photo('location3', START['rover0'], alternative=alternative))
-        check_found(answer, START['rover0'], 'location3')
+        answer = planner.satisfy(photo('location6', START['rover0'], alternative=alternative))
+        if answer.code is Code.NO_MORE_ALTERNATIVES:
+            break
+        check_found(answer, START['rover0'], 'location6')
         end = answer.end['rover0']
         for other in ends:
             assert (
@@ -146,11 +159,20 @@ def test_alternatives_are_right_and_really_differ() -> None:
                 >= parameters.alternative_heading
             )
         ends.append(end)
+    assert len(ends) >= 3
+
+
+def test_another_seed_looks_elsewhere() -> None:
+    ends = {
+        PLANNER.satisfy(photo('location5', START['rover0'], alternative=2, seed=seed)).end['rover0']
+        for seed in range(4)
+    }
+    assert len(ends) == 4
 
 
 def test_alternatives_run_out() -> None:
     text = (
-        '((agent rover0)(object location8)(rover0.x = location8.x + 60)'
+        '((agent rover0)(object location8)(rover0.x = location8.x - 30)'
         '(rover0.y = location8.y + 60)(rover0.heading = pi))'
     )
     answers = [PLANNER.satisfy(GeometricRequest(text, START, alternative=k)) for k in range(3)]

@@ -11,7 +11,10 @@ from motion_planner_node.world.model import Bounds, Circle, Obstacle, Polygon, W
 RADIUS = 5.0
 
 
-def scene_of(*obstacles: Obstacle, bounds: Bounds = Bounds(0, 0, 800, 600)) -> Scene:
+WHOLE = Bounds(0, 0, 800, 600)
+
+
+def scene_of(*obstacles: Obstacle, bounds: Bounds = WHOLE) -> Scene:
     return Scene(World('', '', bounds, {}, obstacles, {}))
 
 
@@ -109,3 +112,21 @@ def test_a_robot_larger_than_the_map_is_nowhere_free() -> None:
     space = scene_of(bounds=Bounds(0, 0, 8, 1e4)).free_space(RADIUS)
     assert len(space.cells) == 0
     assert space.component_of(4, 50) == -1
+
+
+def test_many_obstacles_close_the_same_cells_as_each_alone() -> None:
+    """The cells are worked out block by block with the obstacles near each: none is forgotten."""
+    rng = np.random.default_rng(5)
+    obstacles: list[Obstacle] = [
+        Circle(f'disc{i}', (float(x), float(y)), 12.0)
+        for i, (x, y) in enumerate(rng.uniform([0, 0], [800, 600], (30, 2)))
+    ]
+    obstacles += [
+        Polygon(f'block{i}', ((x, y), (x + 90, y + 5), (x + 40, y + 70)))
+        for i, (x, y) in enumerate(rng.uniform([0, 0], [700, 500], (6, 2)).tolist())
+    ]
+    points = rng.uniform([0, 0], [800, 600], (20000, 2)).T
+    alone = [scene_of(obstacle).free_space(RADIUS).components_of(*points) for obstacle in obstacles]
+    together = scene_of(*obstacles).free_space(RADIUS).components_of(*points)
+    closed = (np.array(alone) < 0).any(axis=0)
+    assert (together[closed] < 0).all()

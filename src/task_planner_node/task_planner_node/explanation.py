@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from task_planner_node.errors import Diagnostic
-from task_planner_node.language.model import show
+from task_planner_node.language.model import Domain, Problem, show
+from task_planner_node.mission import locate as locate_in
+from task_planner_node.oracle import Code
 from task_planner_node.search.dead_ends import DeadEnd, describe
 from task_planner_node.search.engine import Search
+from task_planner_node.search.geometry import RequestRefused
 
 MOST_LINES = 8
+WORD = re.compile(r'[\w-]+')
 
 
 def explain_solution(search: Search) -> str:
@@ -47,3 +52,21 @@ def _remark(
     if place is None:
         return None
     return replace(place, message=f'{show(dead_end.task)}: {dead_end.reason}')
+
+
+def place_refusal(
+    refused: RequestRefused, domain: Domain | None, problem: Problem | None
+) -> Diagnostic:
+    """The error of the motion planner at the label that it does not know, or at the operator's text."""
+    message = f'{show(refused.task)}: {refused.message}'
+    if refused.code in (Code.UNKNOWN_AGENT, Code.UNKNOWN_OBJECT) and problem is not None:
+        labels = [part for part in refused.task[1:] if isinstance(part, str)]
+        named = [word for word in WORD.findall(refused.message) if word in labels]
+        place = locate_in(problem, named[:1] or labels)
+        if place is not None:
+            return replace(place, message=message)
+    for operator in domain.operators if domain is not None else ():
+        if operator.head.name == refused.task[0] and operator.geometric is not None and domain:
+            node = operator.geometric.node
+            return domain.source.diagnostic(node.start, node.end, message)
+    return Diagnostic(message)

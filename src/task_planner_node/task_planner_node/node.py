@@ -67,7 +67,7 @@ class TaskPlannerNode(Node):
                 description=parameter.description + unit, dynamic_typing=True
             )
             self.declare_parameter(parameter.name, parameter.default, descriptor)
-        self._parameters = read_parameters(
+        self._settings = read_parameters(
             {p.name: self.get_parameter(p.name).value for p in PARAMETERS}
         )
         self.add_on_set_parameters_callback(self._set_parameters)
@@ -97,10 +97,10 @@ class TaskPlannerNode(Node):
             self.destroy_node()
 
     def _set_parameters(self, changes: list[Parameter]) -> SetParametersResult:
-        values = {p.name: getattr(self._parameters, p.name) for p in PARAMETERS}
+        values = {p.name: getattr(self._settings, p.name) for p in PARAMETERS}
         values.update({change.name: change.value for change in changes})
         try:
-            self._parameters = read_parameters(values)
+            self._settings = read_parameters(values)
         except ValueError as error:
             return SetParametersResult(successful=False, reason=str(error))
         return SetParametersResult(successful=True)
@@ -127,7 +127,7 @@ class TaskPlannerNode(Node):
 
     def _plan(self, goal: ServerGoalHandle, should_stop: Callable[[], bool]) -> Result:
         request = goal.request
-        parameters = self._parameters
+        parameters = self._settings
         options = _options(request, parameters)
 
         def report(progress: Progress) -> None:

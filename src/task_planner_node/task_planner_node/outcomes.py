@@ -7,7 +7,7 @@ from enum import IntEnum
 from math import inf
 
 from task_planner_node.errors import Diagnostic
-from task_planner_node.search.engine import Step
+from task_planner_node.search.partial_plan import Step
 from task_planner_node.search.statistics import Statistics
 
 

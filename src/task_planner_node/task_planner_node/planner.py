@@ -13,13 +13,14 @@ from task_planner_node.errors import (
     LimitReached,
     MissionError,
 )
-from task_planner_node.explanation import explain_failure, explain_solution
-from task_planner_node.language.model import Problem
+from task_planner_node.explanation import explain_failure, explain_solution, place_refusal
+from task_planner_node.language.model import Domain, Problem, show
 from task_planner_node.mission import MissionText, check_and_compile, locate, read_mission
-from task_planner_node.oracle import Oracle, Token
+from task_planner_node.oracle import INVALID_CODES, Oracle, Token
 from task_planner_node.outcomes import Options, Outcome, Progress, Result
-from task_planner_node.search.engine import Limits, Search
-from task_planner_node.search.geometry import Geometry
+from task_planner_node.search.engine import Search
+from task_planner_node.search.geometry import Geometry, RequestRefused
+from task_planner_node.search.partial_plan import Limits
 from task_planner_node.search.state import State
 from task_planner_node.search.statistics import Statistics
 
@@ -50,6 +51,7 @@ class Planner:
         self._search: Search | None = None
         self._state: State | None = None
         self._problem: Problem | None = None
+        self._domain: Domain | None = None
 
     def plan(self, domain: MissionText, problem: MissionText, start: Token = ()) -> Result:
         """Plan a mission from the geometric state ``start``; never raises for what is in the texts."""
@@ -59,6 +61,8 @@ class Planner:
         except MissionError as error:
             outcome, explanation = Outcome.INVALID, str(error)
             diagnostics = error.diagnostics
+        except RequestRefused as refused:
+            outcome, explanation, diagnostics = self._refused(refused)
         except Cancelled:
             outcome, explanation = Outcome.CANCELLED, 'cancelled by the client'
         except LimitReached as error:
@@ -86,12 +90,12 @@ class Planner:
         mission = check_and_compile(domain, problem, self._oracle)
         facts = [(fact.name, *fact.args) for fact in problem.facts]
         self._state = State(mission.domain.plan, facts)
+        self._domain = domain
         geometry = Geometry(
             self._oracle,
             self._statistics,
             self._options.max_alternatives,
             self._check,
-            self._locate,
         )
         search = self._search = Search(
             mission.domain,
@@ -110,6 +114,14 @@ class Planner:
         reason = '' if search.proven else 'not everything could be tried: nothing is proven'
         explanation, remarks = explain_failure(search, reason, self._locate)
         return outcome, explanation, (*remarks, *mission.warnings)
+
+    def _refused(self, refused: RequestRefused) -> tuple[Outcome, str, tuple[Diagnostic, ...]]:
+        if refused.code not in INVALID_CODES:
+            task = show(refused.task)
+            explanation = f'the motion planner cannot work on {task}: {refused.message}'
+            return Outcome.FAILED, explanation, ()
+        diagnostic = place_refusal(refused, self._domain, self._problem)
+        return Outcome.INVALID, str(diagnostic), (diagnostic,)
 
     def _at_limit(self, reason: str) -> tuple[Outcome, str, tuple[Diagnostic, ...]]:
         """A limit ends the search: with the best plan so far when there is one."""

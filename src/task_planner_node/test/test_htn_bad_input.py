@@ -172,3 +172,16 @@ def test_a_changed_world_is_no_fault_of_the_mission(
     result = plan(*rover_mission, oracle)
     assert result.outcome == Outcome.FAILED
     assert 'the world was replaced' in result.explanation
+
+
+def test_a_property_that_the_world_lacks_is_found_in_the_domain(
+    plan: Plan, rover_mission: tuple[str, str], rover_motion_planner: Callable[[], Oracle]
+) -> None:
+    oracle = Refusing(rover_motion_planner(), 304, 'location3 has no property height')
+    result = plan(*rover_mission, oracle)
+    assert result.outcome == Outcome.INVALID
+    (diagnostic,) = result.diagnostics
+    assert diagnostic.source == 'd.lisp'
+    before = rover_mission[0].split('\n')[: diagnostic.line - 1]
+    assert before[-1] == ';; geometric preconditions'
+    assert '!take_photo' in '\n'.join(before)

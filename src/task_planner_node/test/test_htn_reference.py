@@ -251,7 +251,7 @@ class RandomMotionPlanner:
         return Advice(candidates, tuple(order))
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=200, deadline=None)
 @given(missions(), st.booleans(), st.booleans())
 def test_the_search_agrees_with_brute_force(
     plan: Callable[..., Result], mission: Random, use_advice: bool, reverse: bool

@@ -10,11 +10,12 @@ from typing import Any
 import pytest
 
 from task_planner_node.mission import MissionText
-from task_planner_node.oracle import Answer, Oracle, Query, Status, Token
+from task_planner_node.oracle import Answer, Oracle, Query, Scope, Status, Token
 from task_planner_node.outcomes import Options, Outcome, Progress, Result
 from task_planner_node.planner import Planner
 
 Plan = Callable[..., Result]
+PLACES = {'location0': (20.0, 20.0)}
 World = Callable[..., Any]
 Mission = tuple[str, str]
 
@@ -252,3 +253,88 @@ def test_the_time_budget_ends_a_search(rover_mission: Mission, rover_motion_plan
     assert result.outcome == Outcome.LIMIT
     assert 'the time budget of 0.3 s is spent' in result.explanation
     assert result.statistics.planning_time < 1.0
+
+
+def test_a_proof_reckons_with_deletions_and_with_facts_still_to_come(plan: Plan) -> None:
+    domain = """(defdomain d (
+        (:operator (!clear) () ((p)) ())
+        (:operator (!fill) () () ((q)))
+        (:operator (!last) ((not (p)) (q)) () ())
+        (:method (work) ((p)) ((never)) ((not (p))) ((!last)))
+        (:method (never) ((r)) ())))"""
+    result = plan(domain, '(defproblem x d ((p)) ((!clear) (!fill) (work)))')
+    assert result.outcome == Outcome.SOLVED
+    assert len(result.steps) == 3
+    result = plan(domain, '(defproblem x d ((p)) ((!clear) (work)))')
+    assert result.outcome == Outcome.NO_PLAN
+    assert '(!last): nothing can make (q) true' in result.explanation
+
+
+class Reassigning:
+    """location1 is walled off from location0, where the robot is put first, but not from location2."""
+
+    def __init__(self, base: Oracle) -> None:
+        self.check = base.check
+        self.advise = base.advise
+        self._base = base
+
+    def satisfy(self, query: Query) -> Answer:
+        if 'distance' in query.preconditions and query.start == (PLACES['location0'], 0):
+            return Answer(Status.IMPOSSIBLE, 103, Scope.CONNECTED_STARTS, 'walled off')
+        return self._base.satisfy(query)
+
+
+def test_a_proof_ends_where_an_attitude_is_assigned_anew(
+    plan: Plan, rover_mission: Mission, rover_motion_planner: World
+) -> None:
+    domain = rover_mission[0].replace('(not(initialized ?r))', '')
+    facts = '(rover r)(available r)(has_camera r c)(location location0)(location location1)(location location2)'
+    tasks = '(!init_rover_attitude r location0) (:unordered (!!need_photo location1) %s)'
+    photo = '(!take_photo r location1 c)'
+    again = f'(!init_rover_attitude r location2) {photo}'
+    oracle = Reassigning(rover_motion_planner())
+    result = plan(domain, f'(defproblem p rover ({facts}) ({tasks % photo}))', oracle)
+    assert result.outcome == Outcome.NO_PLAN
+    result = plan(domain, f'(defproblem p rover ({facts}) ({tasks % again}))', oracle)
+    assert result.outcome == Outcome.SOLVED
+    assert [step.action[0] for step in result.steps][-2:] == ['!init_rover_attitude', '!take_photo']
+
+
+AXIOMS = """(defdomain d (
+(:- (same ?x ?x) ())
+(:- (reach ?x ?y) ((edge ?x ?y)) ((edge ?x ?z) (reach ?z ?y)))
+(:operator (!go ?x ?y) ((reach ?x ?y) (not (same ?x ?y))) () ())
+(:operator (!mark ?x) ((or (red ?x) (green ?x))) () ())
+(:method (tour ?x) ((edge ?x ?y)) ((!go ?x ?y)))
+(:method (paint) ((or (red ?x) (green ?x)) (not (edge ?x ?x))) ((!mark ?x)))
+))"""
+
+
+@pytest.mark.parametrize(
+    ('facts', 'task', 'outcome', 'plans'),
+    [
+        ('(edge a b)(edge b c)', '(!go a b)', Outcome.SOLVED, [('!go', 'a', 'b')]),
+        ('(edge b c)(edge a a)', '(!go a a)', Outcome.NO_PLAN, []),
+        ('(edge a a)(edge a b)', '(tour a)', Outcome.SOLVED, [('!go', 'a', 'b')]),
+        ('(green b)(red a)(edge a a)', '(paint)', Outcome.SOLVED, [('!mark', 'b')]),
+    ],
+)
+def test_axioms_negation_and_disjunction(
+    plan: Plan, facts: str, task: str, outcome: Outcome, plans: list[tuple[str, ...]]
+) -> None:
+    result = plan(AXIOMS, f'(defproblem p d ({facts}) ({task}))')
+    assert result.outcome == outcome, result.explanation
+    assert [step.action for step in result.steps] == plans
+
+
+def test_what_failed_with_other_facts_is_tried_again(plan: Plan) -> None:
+    domain = """(defdomain d (
+        (:operator (!p) () () ((p)))
+        (:operator (!q) () () ((q)))
+        (:operator (!b) ((q)) () ())
+        (:operator (!c) ((q)) () ())
+        (:method (choose) () ((!p)))
+        (:method (choose) () ((!q)))))"""
+    result = plan(domain, '(defproblem x d () (:unordered (choose) (!b) (!c)))')
+    assert result.outcome == Outcome.SOLVED
+    assert result.steps[0].action == ('!q',)

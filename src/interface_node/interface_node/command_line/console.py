@@ -9,6 +9,7 @@ from threading import RLock
 from typing import TextIO
 
 _STYLES = {'bold': '1', 'red': '1;31', 'yellow': '33', 'green': '32', 'dim': '2'}
+_USUAL_COLUMNS = 80
 _CLEAR_LINE = '\r\x1b[K'
 
 
@@ -89,8 +90,8 @@ class Console:
         try:
             columns = os.get_terminal_size(self._err.fileno()).columns
         except (OSError, ValueError):
-            columns = 80
-        return text[: max(columns - 1, 10)]
+            columns = 0
+        return text[: (columns or _USUAL_COLUMNS) - 1]
 
     def _line(self, stream: TextIO, text: str) -> None:
         with self._lock:

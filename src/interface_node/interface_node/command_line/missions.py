@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 
-from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
+from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 
 from interface_node.command_line.errors import CommandError
 from interface_node.command_line.exit_codes import ExitCode
@@ -46,7 +46,7 @@ class UnreadableMission(Exception):
 def installed_missions() -> dict[str, Path]:
     """Folders of the missions that come with the installed package, by name, sorted."""
     try:
-        folder = Path(get_package_share_directory('interface_node')) / 'missions'
+        folder = Path(get_package_prefix('interface_node'), 'share', 'interface_node', 'missions')
     except (PackageNotFoundError, OSError):
         return {}
     if not folder.is_dir():

@@ -16,6 +16,7 @@ from interface_node.command_line.nodes import NODES, how_to_start
 from interface_node.command_line.progress import progress_line
 from interface_node.command_line.results import MissionResult, Progress
 from interface_node.command_line.solution import solution_plan, step_table, totals
+from interface_node.plan import Plan
 
 #: [s] that nodes may take to start; the first start on a machine compiles.
 START_PATIENCE = 60.0
@@ -105,7 +106,7 @@ def report(result: MissionResult, goal: MissionGoal, console: Console) -> ExitCo
     plan = result.plan
     write_diagnostics(console, plan.diagnostics, goal.mission.sources.values())
     if plan.outcome != 'SOLVED':
-        first, *rest = plan.explanation.splitlines() or ['the nodes did not say why']
+        first, *rest = _explanation(plan)
         console.error(f'{plan.outcome}: {first}', tuple(rest))
         for file in result.files:
             console.note(f'wrote {file}')
@@ -135,3 +136,15 @@ def checking(interrupts: Interrupts, *checks: Callable[[], None]) -> Callable[[]
             each()
 
     return check
+
+
+def _explanation(plan: Plan) -> list[str]:
+    """The lines of the explanation that are no copies of the diagnostics; at least one."""
+    told = {str(diagnostic) for diagnostic in plan.diagnostics}
+    lines = [line for line in plan.explanation.splitlines() if line not in told]
+    if lines:
+        return lines
+    errors = sum(not diagnostic.warning for diagnostic in plan.diagnostics)
+    if not errors:
+        return ['the nodes did not say why']
+    return [f'{errors} error{"" if errors == 1 else "s"} in the mission']

@@ -58,6 +58,7 @@ class Child:
         self.name = name
         self.log = log
         self.last_lines: deque[str] = deque(maxlen=_LAST_LINES)
+        self.is_heard = True
         self._on_line = on_line
         self._log_file = log.open('wb')
         try:
@@ -91,7 +92,7 @@ class Child:
                 self._log_file.write(raw)
                 self._log_file.flush()
                 line = raw.decode('utf-8', 'replace').rstrip()
-                if line:
+                if line and self.is_heard:
                     self.last_lines.append(line)
                     self._on_line(self.name, line)
 
@@ -162,7 +163,12 @@ class Supervisor:
         return None
 
     def stop(self) -> None:
-        """End all children and what they started; again is harmless."""
+        """End all children and what they started; again is harmless.
+
+        What they say from now on goes into their logs alone.
+        """
+        for child in self._children:
+            child.is_heard = False
         for number, patience in self._patience:
             living = [child for child in self._children if child.process.poll() is None]
             for child in living:

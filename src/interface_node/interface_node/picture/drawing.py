@@ -22,6 +22,8 @@ from interface_node.plan import Plan, Step, World
 
 #: Pixels an inch, and inches of the longer side.
 DPI, LONG_SIDE = 150, 10.67
+#: Room [inches] of the axis' numbers and label.
+BELOW_AXIS = 0.6
 #: More objects than this are drawn without their labels.
 MAX_LABELS = 100
 
@@ -67,9 +69,11 @@ def draw(plan: Plan) -> Figure:
     looked_at = _draw_viewing_lines(axes, plan, world)
     _draw_objects(axes, world)
     _draw_attitudes(axes, plan, world)
-    figure.legend(
+    axes.legend(
         handles=_legend(plan),
-        loc='outside lower center',
+        loc='upper center',
+        # Below the axis and its label, which take the same room in every picture.
+        bbox_to_anchor=(0.5, -BELOW_AXIS / figure.get_figheight()),
         ncols=7,
         frameon=False,
         fontsize=9,

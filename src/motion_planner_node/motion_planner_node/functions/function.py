@@ -38,7 +38,6 @@ class Function:
     result: Kind
     value: Callable[..., Any]
     description: str
-    unit: str = ''
     derived_codes: tuple[str, ...] = COMPONENTS
     symmetric: bool = False
 
@@ -52,8 +51,3 @@ class Function:
             if component not in self.derived_codes:
                 gradient[index] = 0.0
         return Dual(result.value, gradient)
-
-    @property
-    def signature(self) -> str:
-        """Name and kinds of arguments: ``distance(an agent or an object, ...)``."""
-        return f'{self.name}({", ".join(kind.value for kind in self.arguments)})'

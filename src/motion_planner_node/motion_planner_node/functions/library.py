@@ -40,7 +40,6 @@ FUNCTIONS: dict[str, Function] = {
             arguments=(Kind.PLACE, Kind.PLACE),
             result=Kind.NUMBER,
             value=distance,
-            unit='m',
             symmetric=True,
             description='Euclidean distance between two places.',
         ),
@@ -49,7 +48,6 @@ FUNCTIONS: dict[str, Function] = {
             arguments=(Kind.AGENT, Kind.PLACE),
             result=Kind.ANGLE,
             value=relative_angle,
-            unit='rad',
             derived_codes=('heading',),
             description='Heading of the agent minus the bearing from the agent to the place.',
         ),
@@ -58,7 +56,6 @@ FUNCTIONS: dict[str, Function] = {
             arguments=(Kind.NUMBER,),
             result=Kind.ANGLE,
             value=angle_of,
-            unit='rad',
             description='The angle that has this many radians, for comparison with an angle.',
         ),
         Function(
@@ -66,7 +63,6 @@ FUNCTIONS: dict[str, Function] = {
             arguments=(Kind.NUMBER,),
             result=Kind.NUMBER,
             value=degrees,
-            unit='rad',
             description='Radians of an angle given in degrees.',
         ),
     )

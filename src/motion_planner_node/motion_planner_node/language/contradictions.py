@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import inf, nan, pi, remainder
+from math import inf, isfinite, nan, pi, remainder
 
 import numpy as np
 
@@ -21,6 +21,10 @@ from motion_planner_node.language.syntax import Constraint
 from motion_planner_node.language.tape import Tape
 
 _TOLERANCE = 1e-9
+
+#: Beyond this [rad] doubles no longer tell what an angle is modulo 2 pi.
+_LARGEST_ANGLE = 1e6
+
 _FLIPPED = {'<': '>', '<=': '>=', '>': '<', '>=': '<=', '=': '='}
 
 
@@ -76,14 +80,14 @@ def _sentence(first: _Bound, second: _Bound) -> str:
 def _never_holds(constraint: Constraint, form: Linear, periodic: bool) -> str:
     """Why no attitude at all meets the constraint; empty if that is not certain."""
     number = form.number
+    if periodic and (form.terms or abs(number) > _LARGEST_ANGLE):
+        return ''
     if not form.terms:
         off = abs(remainder(number, 2.0 * pi)) if periodic else number
         slack = _TOLERANCE * max(1.0, abs(number))
         if _holds(constraint.comparator, off, slack):
             return ''
         return f'the left side minus the right side is {number_to_text(number)}'
-    if periodic:
-        return ''
     tape = Tape('', {})
     left, right = tape.slot(constraint.left), tape.slot(constraint.right)
     whole = Interval.constant(nan)
@@ -126,7 +130,7 @@ def _exclude(first: _Bound, second: _Bound) -> bool:
         both = first.periodic and second.periodic
         return both and abs(remainder(first.value - second.value, 2.0 * pi)) > _TOLERANCE
     (low, low_strict), (high, high_strict) = _range((first, second))
-    slack = _TOLERANCE * max(1.0, abs(low) if abs(low) < inf else 0.0)
+    slack = _TOLERANCE * max(1.0, abs(first.value))
     return low > high + slack or (low >= high and (low_strict or high_strict))
 
 
@@ -142,8 +146,9 @@ def _range(bounds: Sequence[_Bound]) -> tuple[tuple[float, bool], tuple[float, b
 def _bound(constraint: Constraint, form: Linear, periodic: bool) -> _Bound | None:
     first = min(form.terms)
     factor = form.terms[first]
-    if periodic and abs(factor) != 1.0:
+    value = -form.number / factor
+    if not isfinite(value) or (periodic and (abs(factor) != 1.0 or abs(value) > _LARGEST_ANGLE)):
         return None
     quantity = tuple((name, form.terms[name] / factor) for name in sorted(form.terms))
     comparator = constraint.comparator if factor > 0.0 else _FLIPPED[constraint.comparator]
-    return _Bound(quantity, comparator, -form.number / factor, periodic, constraint)
+    return _Bound(quantity, comparator, value, periodic, constraint)

@@ -7,6 +7,7 @@ ICRA 2000, on OMPL's Dubins state space.
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import pi, remainder, tau
 from threading import Lock
 
 import numpy as np
@@ -53,17 +54,12 @@ class _Iterations:
     def __init__(self, most: int, should_stop: Callable[[], bool]) -> None:
         self._left = most
         self._should_stop = should_stop
-        self.error: Exception | None = None
 
     def __call__(self) -> bool:
+        if self._should_stop():
+            raise Stopped
         self._left -= 1
-        if self.error is None:
-            try:
-                if self._should_stop():
-                    raise Stopped
-            except Exception as error:  # noqa: BLE001  (it would be lost in OMPL)
-                self.error = error
-        return self.error is not None or self._left < 0
+        return self._left < 0
 
 
 def _space(shapes: Shapes, radius: float) -> base.DubinsStateSpace:
@@ -81,7 +77,9 @@ def _space(shapes: Shapes, radius: float) -> base.DubinsStateSpace:
 def _state(space: base.DubinsStateSpace, attitude: Attitude) -> base.State:
     state = space.allocState()
     state.setXY(attitude.x, attitude.y)
-    state.setYaw(attitude.heading)
+    # OMPL's angles are in [-pi, pi): it would take a heading of pi for invalid, and wait in vain.
+    heading = remainder(attitude.heading, tau)
+    state.setYaw(heading if heading < pi else -pi)
     return state
 
 
@@ -109,20 +107,15 @@ def sample_path(
     information.setMotionValidator(edges)
     problem = base.ProblemDefinition(information)
     problem.setStartAndGoalStates(_state(space, start), _state(space, goal))
-    count = _Iterations(iterations, should_stop)
+    enough = base.PlannerTerminationCondition(_Iterations(iterations, should_stop))
     with _ONE_AT_A_TIME:
         util.RNG.setSeed(seed)
         information.setup()
         planner = geometric.RRTConnect(information)
         planner.setProblemDefinition(problem)
         planner.setup()
-        planner.solve(base.PlannerTerminationCondition(count))
-    if count.error is not None:
-        raise count.error
+        planner.solve(enough)
     if not problem.hasExactSolution():
         return None
     states = problem.getSolutionPath().getStates()
-    path = np.array([(s.getX(), s.getY(), s.getYaw()) for s in states])
-    path[0] = start.x, start.y, start.heading
-    path[-1] = goal.x, goal.y, goal.heading
-    return path
+    return np.array([(s.getX(), s.getY(), s.getYaw()) for s in states])

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import tau
 
 import numpy as np
 from numpy.typing import NDArray
 
 from motion_planner_node.planning.boxes import Boxes, Pyramid
 from motion_planner_node.robots.car import dubins_lengths
-from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.motion import Attitude, Motion, Segment
 from motion_planner_node.world.model import CarModel
 from motion_planner_node.world.scene import Scene
 
@@ -17,6 +18,9 @@ from motion_planner_node.world.scene import Scene
 WHOLE_MAP_BOXES = 96
 #: Places on the rim of an area whose nearest obstacles are named.
 RIM_PLACES = 256
+
+#: Turning radii that a car may drive ahead before it looks for room to turn.
+RUN_UPS = (0.0, 1.0, 2.0, 4.0, 8.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +70,23 @@ class Ground:
         if clearance < 0.0:
             return f'{here} is {-clearance:.4g} m inside {name}'
         return f'{here} is {clearance:.4g} m from {name}; the robot needs {self.car.radius:g} m'
+
+    def can_turn_round(self, attitude: Attitude) -> bool:
+        """Whether there is room for a full circle at ``attitude`` or straight ahead of it.
+
+        A car that only drives forward may never get out of a place without such room.
+        """
+        circle = tau * self.car.turning_radius
+        for ahead in RUN_UPS:
+            straight = Segment(0.0, ahead * self.car.turning_radius)
+            for angle in (self.car.max_steering_angle, -self.car.max_steering_angle):
+                segments = (
+                    (straight, Segment(angle, circle)) if ahead else (Segment(angle, circle),)
+                )
+                motion = Motion(self.car.label, attitude, segments)
+                if self.scene.motion_is_free(motion, self.car):
+                    return True
+        return False
 
     def part_of(self, attitude: Attitude) -> int:
         """Number of the connected part of the free space that ``attitude`` is in; -1 for none."""

@@ -21,6 +21,9 @@ from motion_planner_node.robots.car import end_of
 from motion_planner_node.robots.motion import Attitude, Motion
 from motion_planner_node.satisfaction import destinations
 
+#: Destinations that are as near as this [m] and [rad] are the same one, found again.
+SAME = 1e-3
+
 
 @dataclass(frozen=True, slots=True)
 class Found:
@@ -33,8 +36,12 @@ class Found:
 
 @dataclass(order=True, slots=True)
 class _Candidate:
-    """A destination; ``length`` [m] is an estimate until there is a motion."""
+    """A destination; ``length`` [m] is an estimate until there is a motion.
 
+    One that may be a dead end comes after all others: the next action has to start there.
+    """
+
+    dead_end: bool
     length: float
     number: int
     attitude: Attitude = field(compare=False)
@@ -59,7 +66,8 @@ class Stream:
         self.tried = Tried(self._problem.agent)
         self._found: list[Found] = []
         self._candidates: list[_Candidate] = []
-        self._numbered = 0
+        self._seen: list[Attitude] = []
+        self._failures = 0
         self.proof: Impossible | None = None
         self._more = self._generate()
         self._broken = False
@@ -94,17 +102,21 @@ class Stream:
             planned: list[_Candidate] = []
             while self._candidates or planned:
                 best = min(planned, default=None)
-                full = len(planned) >= self._parameters.paths_per_answer
-                if best and (full or not self._candidates or best < self._candidates[0]):
+                enough = len(planned) >= self._parameters.paths_per_answer or self._has_failed
+                if best and (enough or not self._candidates or best < self._candidates[0]):
                     planned.remove(best)
                     yield self._answer(best)
                     planned = [other for other in planned if self._is_new(other.attitude)]
-                    continue
-                candidate = heapq.heappop(self._candidates)
-                if self._is_new(candidate.attitude) and self._plan(candidate):
-                    planned.append(candidate)
-                if self.tried.counts[AttemptResult.NO_PATH] >= self._parameters.failures_per_answer:
+                elif self._has_failed:
                     return
+                else:
+                    candidate = heapq.heappop(self._candidates)
+                    if self._is_new(candidate.attitude) and self._plan(candidate):
+                        planned.append(candidate)
+
+    @property
+    def _has_failed(self) -> bool:
+        return self._failures >= self._parameters.failures_per_answer
 
     def _prove(self) -> Impossible | None:
         hopeful = hopeful_cells(self._problem, self._ground)
@@ -113,6 +125,7 @@ class Stream:
     def _answer(self, candidate: _Candidate) -> Found:
         assert candidate.motion is not None
         tried, self.tried = self.tried, Tried(self._problem.agent)
+        self._failures = 0
         return Found(candidate.motion, candidate.attitude, tried)
 
     def _add_candidates(self, round_number: int) -> None:
@@ -133,6 +146,9 @@ class Stream:
         estimates = self._ground.estimates(self._problem.start, states)
         for state, is_free, is_near, estimate in zip(states, free, near, estimates, strict=True):
             attitude = Attitude(*(float(number) for number in state))
+            if not all(_differ(attitude, seen, SAME, SAME) for seen in self._seen):
+                continue
+            self._seen.append(attitude)
             if not is_free:
                 trouble = self._ground.trouble(attitude)
                 self.tried.add(attitude, AttemptResult.IN_OBSTACLE, trouble)
@@ -140,9 +156,10 @@ class Stream:
                 reason = 'walled off from the start'
                 self.tried.add(attitude, AttemptResult.NO_PATH, reason)
             else:
-                candidate = _Candidate(float(estimate), self._numbered, attitude)
+                stays = attitude == self._problem.start
+                dead_end = not stays and not self._ground.can_turn_round(attitude)
+                candidate = _Candidate(dead_end, float(estimate), len(self._seen), attitude)
                 heapq.heappush(self._candidates, candidate)
-            self._numbered += 1
 
     def _plan(self, candidate: _Candidate) -> bool:
         """Find a motion to the candidate and verify it where it ends."""
@@ -161,7 +178,7 @@ class Stream:
                 self._should_stop,
             )
             if result.motion is None:
-                self._check_time()
+                self._failures += 1
                 self.tried.add(goal, AttemptResult.NO_PATH, result.reason)
                 return False
             motion = result.motion
@@ -175,14 +192,17 @@ class Stream:
 
     def _is_new(self, attitude: Attitude) -> bool:
         """Whether ``attitude`` really differs from all that was answered before."""
-        return not any(
-            hypot(attitude.x - found.end.x, attitude.y - found.end.y)
-            < self._parameters.alternative_distance
-            and abs(remainder(attitude.heading - found.end.heading, tau))
-            < self._parameters.alternative_heading
-            for found in self._found
-        )
+        far, turned = self._parameters.alternative_distance, self._parameters.alternative_heading
+        return all(_differ(attitude, found.end, far, turned) for found in self._found)
 
     def _check_time(self) -> None:
         if self._should_stop():
             raise Stopped
+
+
+def _differ(one: Attitude, other: Attitude, distance: float, angle: float) -> bool:
+    """Whether two attitudes are ``distance`` [m] apart or turned by ``angle`` [rad]."""
+    return (
+        hypot(one.x - other.x, one.y - other.y) >= distance
+        or abs(remainder(one.heading - other.heading, tau)) >= angle
+    )

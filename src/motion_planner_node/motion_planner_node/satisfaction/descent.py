@@ -17,6 +17,9 @@ from motion_planner_node.satisfaction.penalty import Penalty, is_met, penalty
 from motion_planner_node.satisfaction.program import Program
 from motion_planner_node.satisfaction.row import wrap
 
+#: Keeps the matrices of damped steps regular, relative to their size.
+_LEAST_PIVOT = 1e-12
+
 
 @dataclass(frozen=True, slots=True)
 class DescentOptions:
@@ -166,5 +169,6 @@ def _damped_step(at: Penalty, weights: Array, damping: Array, scale: Array) -> A
     transposed = jacobian.transpose(0, 2, 1)
     matrix = transposed @ jacobian
     right = transposed @ (at.residuals * weights).T[:, :, None]
-    matrix += (damping + 1e-30)[:, None, None] * np.eye(3)
+    least = _LEAST_PIVOT * (1e-30 + np.trace(matrix, axis1=1, axis2=2))
+    matrix += (damping + least)[:, None, None] * np.eye(3)
     return np.asarray(-np.linalg.solve(matrix, right)[:, :, 0] * scale)

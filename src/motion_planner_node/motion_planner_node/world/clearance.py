@@ -50,6 +50,8 @@ def clearance_at(shapes: Shapes, x: float, y: float) -> tuple[float, int]:
     polygons = len(shapes.first_edge) - 1
     for i in range(len(shapes.boxes)):
         outside_x = max(shapes.boxes[i, 0] - x, 0.0, x - shapes.boxes[i, 2])
+        if outside_x > 0.0 and outside_x >= nearest:
+            continue
         outside_y = max(shapes.boxes[i, 1] - y, 0.0, y - shapes.boxes[i, 3])
         outside = hypot(outside_x, outside_y)
         if outside > 0.0 and outside >= nearest:

@@ -58,3 +58,19 @@ def shapes_of(world: World) -> tuple[Shapes, tuple[str, ...]]:
         boxes=np.array(polygon_boxes + disc_boxes, float).reshape(-1, 4),
     )
     return shapes, (*polygon_names, *disc_names)
+
+
+def shapes_near(shapes: Shapes, x_min: float, y_min: float, x_max: float, y_max: float) -> Shapes:
+    """Only those polygons and discs whose boxes meet a rectangle [m]; the bounds as they are."""
+    boxes = shapes.boxes
+    near = (boxes[:, 0] <= x_max) & (boxes[:, 2] >= x_min)
+    near &= (boxes[:, 1] <= y_max) & (boxes[:, 3] >= y_min)
+    sizes = np.diff(shapes.first_edge)
+    polygons, discs = near[: len(sizes)], near[len(sizes) :]
+    return Shapes(
+        bounds=shapes.bounds,
+        edges=shapes.edges[np.repeat(polygons, sizes)],
+        first_edge=np.concatenate([[0], np.cumsum(sizes[polygons])]).astype(np.int64),
+        discs=shapes.discs[discs],
+        boxes=boxes[near],
+    )

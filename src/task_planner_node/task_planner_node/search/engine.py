@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
 from math import inf
 
 from task_planner_node.errors import LimitReached
 from task_planner_node.language.model import shorten, show
 from task_planner_node.oracle import Answer, Status, Token
+from task_planner_node.search.closed import Closed
 from task_planner_node.search.dead_ends import DeadEnd, DeadEnds
 from task_planner_node.search.domain import CompiledDomain, CompiledMethod
 from task_planner_node.search.geometry import Geometry
@@ -22,53 +22,15 @@ from task_planner_node.search.network import (
     replace,
     rest_after,
 )
+from task_planner_node.search.partial_plan import Limits, Node, Step
 from task_planner_node.search.relaxation import no_definition_fits, prove_dead
 from task_planner_node.search.state import State
 from task_planner_node.search.statistics import Statistics
 from task_planner_node.search.terms import Frame
 
 CHECK_INTERVAL = 64
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """One action of a plan; ``answer`` is None for a purely symbolic one."""
-
-    action: tuple[str, ...]
-    cost: float
-    preconditions: str
-    start: Token
-    answer: Answer | None
-
-
-@dataclass(slots=True, eq=False)
-class Node:
-    """A partial plan: what is left to do, and where the robots stand.
-
-    ``lineage`` is the attitude that was last assigned, ``tested`` the version of the nogoods that it survived;
-    ``unproven`` tells that something below it was given up without a proof.
-    """
-
-    network: Network
-    start: Token
-    lineage: Token
-    mark: int
-    tested: int
-    actions: int = 0
-    length: float = 0.0
-    focused: bool = False
-    step: Step | None = None
-    moves: Iterator[Node | None] = field(default_factory=lambda: iter(()))
-    unproven: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Limits:
-    """How far a search may go; ``max_depth`` counts nested choices."""
-
-    max_depth: int = 200_000
-    optimise: bool = False
-    use_advice: bool = True
+# The methods whose heads fit a task, each with its frame.
+Fitting = list[tuple[CompiledMethod, Frame]]
 
 
 class Search:
@@ -93,6 +55,7 @@ class Search:
         self.deepest = 0
         self.proven = True
         self.stack: list[Node] = []
+        self._closed = Closed()
         self._domain = domain
         self._state = state
         self._geometry = geometry
@@ -124,6 +87,7 @@ class Search:
             child = next(node.moves, node)
             if child is node:
                 stack.pop()
+                self._closed.add(node.network, self._state, node.start, node.length, node.unproven)
                 self._statistics.backtracks += 1
                 if stack:
                     stack[-1].unproven |= node.unproven
@@ -137,6 +101,11 @@ class Search:
                 self._check()
             if child.length >= self.best_length:
                 continue
+            seen = self._seen(child)
+            if seen is not None:
+                node.unproven |= seen
+                self._statistics.backtracks += 1
+                continue
             stack.append(child)
             self.deepest = max(self.deepest, child.actions)
             if child.network is None:
@@ -146,6 +115,10 @@ class Search:
                 stack.pop()
             elif len(stack) > self._limits.max_depth:
                 raise LimitReached(self._too_deep(child))
+
+    def _seen(self, node: Node) -> bool | None:
+        optimise = self._limits.optimise
+        return self._closed.find(node.network, self._state, node.start, node.length, optimise)
 
     def _accept(self) -> None:
         node = self.stack[-1]
@@ -169,6 +142,7 @@ class Search:
     def _moves(self, node: Node) -> Iterator[Node | None]:
         """The children of a node in the order to try; None asks for another look at the node itself."""
         candidates = first_tasks(node.network)
+        fits: dict[Path, Fitting] = {}
         for task, path in candidates:
             if task[0] in self._domain.operators:
                 continue
@@ -176,6 +150,7 @@ class Search:
             if not fitting:
                 self.dead_ends.add(task, 'head', no_definition_fits(task, primitive=False))
                 return
+            fits[path] = fitting
             method, frame = fitting[0]
             if len(fitting) == 1 and method.unconditional:
                 # What it decomposes into depends on nothing that another task could change.
@@ -185,17 +160,17 @@ class Search:
                 yield self._child(node, replace(node.network, path, branch, to_front=False))
                 return
         if len(candidates) == 1:
-            yield from self._expand(node, *candidates[0])
+            yield from self._expand(node, *candidates[0], fits)
             return
         if node.focused:
-            yield from self._expand(node, *candidates[0])
+            yield from self._expand(node, *candidates[0], fits)
             candidates = candidates[1:]
         version = self._geometry.version
         ordered = self._in_advised_order(node, candidates)
         if self._geometry.version != version:
             yield None
         for task, path in ordered:
-            yield from self._expand(node, task, path)
+            yield from self._expand(node, task, path, fits)
 
     def _in_advised_order(
         self, node: Node, candidates: list[tuple[Task, Path]]
@@ -213,22 +188,26 @@ class Search:
             ordered[place] = candidates[chosen]
         return ordered
 
-    def _fitting(self, task: Task) -> list[tuple[CompiledMethod, Frame]]:
+    def _fitting(self, task: Task) -> Fitting:
         bound = ((method, method.bind(task)) for method in self._domain.methods.get(task[0], ()))
         return [(method, frame) for method, frame in bound if frame is not None]
 
-    def _expand(self, node: Node, task: Task, path: Path) -> Iterator[Node | None]:
+    def _expand(
+        self, node: Node, task: Task, path: Path, fits: dict[Path, Fitting]
+    ) -> Iterator[Node | None]:
         if task[0] in self._domain.operators:
             return self._apply(node, task, path)
-        return self._decompose(node, task, path)
+        return self._decompose(node, task, path, fits[path])
 
-    def _decompose(self, node: Node, task: Task, path: Path) -> Iterator[Node | None]:
+    def _decompose(
+        self, node: Node, task: Task, path: Path, fitting: Fitting
+    ) -> Iterator[Node | None]:
         """SHOP2: every method whose head fits; of each the first branch that can be satisfied."""
         network, state = node.network, self._state
         rest = rest_after(network, path)
         failures: list[str] = []
         applied = False
-        for method, frame in self._fitting(task):
+        for method, frame in fitting:
             for branch in method.branches:
                 found = False
                 for _ in branch.condition.solutions(state, frame):

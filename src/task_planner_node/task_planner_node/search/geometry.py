@@ -6,10 +6,9 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from task_planner_node.errors import Diagnostic, GeometryFailed, MissionError
+from task_planner_node.errors import Diagnostic
 from task_planner_node.language.model import show
 from task_planner_node.oracle import (
-    INVALID_CODES,
     Answer,
     Code,
     Oracle,
@@ -32,11 +31,22 @@ class Nogood:
     objects: tuple[str, ...]
 
 
+class RequestRefused(Exception):
+    """The motion planner answered a request for ``task`` with an error."""
+
+    def __init__(
+        self, task: Task, code: int, message: str, diagnostics: Sequence[Diagnostic] = ()
+    ) -> None:
+        super().__init__(message)
+        self.task = task
+        self.code = code
+        self.message = diagnostics[0].message if diagnostics else message
+
+
 class Geometry:
     """Asks the oracle, remembers every answer within one search, and learns from what is impossible.
 
-    ``version`` grows with every new nogood.  ``locate`` places an error of the motion planner in the
-    texts of the mission.
+    ``version`` grows with every new nogood.
     """
 
     def __init__(
@@ -45,14 +55,12 @@ class Geometry:
         statistics: Statistics,
         max_alternatives: int,
         check_limits: Callable[[], None],
-        locate: Callable[[Sequence[str]], Diagnostic | None],
     ) -> None:
         self.version = 0
         self._oracle = oracle
         self._statistics = statistics
         self._max_alternatives = max_alternatives
         self._check_limits = check_limits
-        self._locate = locate
         self._answers: dict[tuple[str, Token, int], Answer] = {}
         self._nogoods: dict[tuple[Scope, Token, str], Nogood] = {}
         self._ranks: dict[Token, dict[str, int]] = {}
@@ -99,7 +107,7 @@ class Geometry:
         self._statistics.exchanged(time.monotonic() - began, answer.time_spent)
         self._statistics.answers += 1
         if answer.status == Status.ERROR and answer.code != Code.NO_START:
-            self._refuse(action, answer)
+            raise RequestRefused(task, answer.code, answer.message, answer.diagnostics)
         if answer.status == Status.FOUND:
             self._statistics.found += 1
         elif answer.status == Status.UNKNOWN:
@@ -124,22 +132,6 @@ class Geometry:
         self._nogoods[(scope, place[scope], text)] = Nogood(reason, objects)
         if scope != Scope.THIS_START:
             self.version += 1
-
-    def _refuse(self, action: tuple[str, ...], answer: Answer) -> None:
-        """An answer of status ERROR: the mission or the motion planner is at fault."""
-        call = f'({" ".join(action)})'
-        if answer.code not in INVALID_CODES:
-            raise GeometryFailed(f'the motion planner cannot work on {call}: {answer.message}')
-        labels = [d.text for d in answer.diagnostics if d.text in action] or [
-            word for word in action[1:] if word in answer.message.replace('"', ' ').split()
-        ]
-        place = self._locate(labels or action[1:])
-        message = f'{call}: {answer.message}'
-        if place is None:
-            raise MissionError([Diagnostic(message)])
-        raise MissionError(
-            [Diagnostic(message, place.line, place.column, place.text, place.source)]
-        )
 
     def ranks(
         self, start: Token, lineage: Token, texts: Sequence[str], ask: bool

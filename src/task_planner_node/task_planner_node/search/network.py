@@ -6,6 +6,7 @@ A network is None when nothing is left to do, or a pair (first, rest).  The firs
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
@@ -38,7 +39,7 @@ def parallel(branches: list[Network], rest: Network) -> Network:
             flat.append(branch)
     if not flat:
         return rest
-    if len(flat) == 7:
+    if len(flat) == 1:
         return sequence(flat[0], rest)
     return (Parallel(tuple(flat)), rest)
 
@@ -121,3 +122,26 @@ def all_tasks(network: Network) -> Iterator[Task]:
                 agenda.extend(first.branches)
             else:
                 yield first
+
+
+class TooLarge(Exception):
+    """The network has more tasks than are worth looking at."""
+
+
+def canonical(network: Network, most: int) -> tuple[Any, ...]:
+    """A hashable value that is equal for networks that differ in the order of parallel branches only.
+
+    Raises TooLarge beyond ``most`` tasks.
+    """
+    elements: list[Any] = []
+    while network is not None:
+        first, network = network
+        if isinstance(first, Parallel):
+            parts = [canonical(branch, most) for branch in first.branches]
+            most -= sum(len(part) for part in parts)
+            elements.append(frozenset(Counter(parts).items()))
+        else:
+            elements.append(first)
+        if len(elements) > most:
+            raise TooLarge
+    return tuple(elements)

@@ -41,24 +41,27 @@ class State:
 
     Buckets are immutable tuples, so an enumeration survives changes that are undone before it goes on.
     With ``relaxed`` set, negative preconditions count as satisfied and every branch is open: an
-    over-approximation of what can become true.
+    over-approximation of what can become true.  ``changed`` holds the facts that differ from the initial ones.
     """
 
     def __init__(self, plan: IndexPlan, facts: Iterable[Fact]) -> None:
         self.facts: set[Fact] = set()
         self.buckets: list[dict[Any, Bucket]] = [{} for _ in range(len(plan))]
         self.relaxed = False
+        self.changed: set[Fact] = set()
         self._by_predicate = plan.by_predicate()
         self._trail: list[tuple[Fact, bool, list[tuple[dict[Any, Bucket], Any, Bucket]]]] = []
         for fact in facts:
             self.add(fact)
         self._trail.clear()
+        self.changed.clear()
 
     def add(self, fact: Fact) -> bool:
         """Make ``fact`` true; False when it already was."""
         if fact in self.facts:
             return False
         self.facts.add(fact)
+        self.changed ^= {fact}
         changes = []
         for number, key_of in self._by_predicate.get((fact[0], len(fact)), ()):
             buckets = self.buckets[number]
@@ -74,6 +77,7 @@ class State:
         if fact not in self.facts:
             return False
         self.facts.remove(fact)
+        self.changed ^= {fact}
         changes = []
         for number, key_of in self._by_predicate.get((fact[0], len(fact)), ()):
             buckets = self.buckets[number]
@@ -97,6 +101,7 @@ class State:
         trail = self._trail
         while len(trail) > mark:
             fact, added, changes = trail.pop()
+            self.changed ^= {fact}
             if added:
                 self.facts.remove(fact)
             else:

@@ -1,0 +1,178 @@
+"""Messages to dataclasses and back, and what becomes of a fault inside a request."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from math import inf, nan, pi
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import rclpy
+from geohtn_msgs import msg, srv
+from hypothesis import given
+from hypothesis import strategies as st
+
+from motion_planner_node import conversions
+from motion_planner_node.codes import AttemptResult, Code, Scope
+from motion_planner_node.errors import Diagnostic, MotionPlannerError
+from motion_planner_node.node import MotionPlannerNode
+from motion_planner_node.planner import MotionPlanner
+from motion_planner_node.requests import (
+    AdviceAnswer,
+    Attempt,
+    CandidateAdvice,
+    GeometricAnswer,
+    Residual,
+)
+from motion_planner_node.robots.motion import Attitude, Motion, Segment
+from motion_planner_node.world import read_world
+
+WORLD = (
+    Path(__file__).resolve().parents[2] / 'interface_node' / 'missions' / 'rover' / 'world.yaml'
+).read_text(encoding='utf-8')
+
+
+@given(
+    st.floats(allow_nan=False, allow_infinity=False),
+    st.floats(allow_nan=False, allow_infinity=False),
+    st.floats(-pi, pi, exclude_min=True),
+)
+def test_a_state_survives_the_journey_bit_for_bit(x: float, y: float, heading: float) -> None:
+    state = {'rover0': Attitude(x, y, heading), 'rover1': Attitude(y, x, 0.0)}
+    assert conversions.state_from_msg(conversions.state_to_msg(state)) == state
+
+
+@given(st.floats(-1e6, 1e6))
+def test_every_heading_ends_up_in_its_range(heading: float) -> None:
+    (attitude,) = conversions.state_from_msg(
+        [msg.AgentState(agent='rover0', heading=heading)]
+    ).values()
+    assert -pi < attitude.heading <= pi
+    assert np.cos(attitude.heading) == pytest.approx(np.cos(heading), abs=1e-9)
+    assert np.sin(attitude.heading) == pytest.approx(np.sin(heading), abs=1e-9)
+
+
+def test_a_half_turn_has_one_name() -> None:
+    states = conversions.state_from_msg([msg.AgentState(agent='rover0', heading=-pi)])
+    assert states['rover0'].heading == pi
+
+
+@pytest.mark.parametrize('name', ['x', 'y', 'heading'])
+@pytest.mark.parametrize('value', [nan, inf, -inf])
+def test_a_number_that_is_not_finite_is_no_start(name: str, value: float) -> None:
+    with pytest.raises(MotionPlannerError, match=name) as refused:
+        conversions.state_from_msg([msg.AgentState(agent='rover0', **{name: value})])
+    assert refused.value.code is Code.INVALID_START
+
+
+def test_an_agent_stands_in_one_place() -> None:
+    twice = [msg.AgentState(agent='rover0'), msg.AgentState(agent='rover0', x=1.0)]
+    with pytest.raises(MotionPlannerError, match='rover0 twice') as refused:
+        conversions.state_from_msg(twice)
+    assert refused.value.code is Code.INVALID_START
+
+
+def test_an_answer_of_numpy_numbers_becomes_a_message_of_plain_ones() -> None:
+    one = np.float64(1.0)
+    yes: Any = np.bool_(1)
+    attitude = Attitude(one, one, one)
+    answer = GeometricAnswer(
+        code=Code.NO_PATH,
+        message='no path',
+        scope=Scope.ANY_START,
+        agent='rover0',
+        objects=('tree',),
+        world_revision='r',
+        end={'rover0': attitude},
+        assigned=yes,
+        motion=Motion('rover0', attitude, (Segment(one, one), Segment(-one, one))),
+        residuals=(Residual('c', one, yes),),
+        attempts=(Attempt('rover0', attitude, AttemptResult.NO_PATH, 'why'),),
+        diagnostics=(Diagnostic('remark', 3, 4, 'text', 'file'),),
+        advice='turn',
+    )
+    asked = msg.GeometricRequest(request_id='id', alternative=4)
+    sent = conversions.answer_to_msg(answer, asked, np.float64(0.5))
+    assert (sent.status, sent.code, sent.scope) == (
+        msg.GeometricAnswer.UNKNOWN,
+        msg.GeometricAnswer.NO_PATH,
+        msg.GeometricAnswer.ANY_START,
+    )
+    assert (sent.request_id, sent.alternative, sent.length) == ('id', 4, 2.0)
+    assert type(sent.end[0].x) is float
+    assert type(sent.residuals[0].satisfied) is bool
+    assert [part.steering_angle for part in sent.motion.segments] == [1.0, -1.0]
+    assert sent.attempts[0].result == msg.Attempt.NO_PATH
+    assert (sent.diagnostics[0].line, sent.diagnostics[0].source) == (3, 'file')
+
+
+def test_advice_becomes_a_message() -> None:
+    candidates = (CandidateAdvice(1.0, 2.0), CandidateAdvice(inf, inf, impossible=True))
+    sent = conversions.advice_to_msg(
+        AdviceAnswer(candidates, (0, 1), 'r'), msg.AdviceRequest(request_id='id'), 0.5
+    )
+    assert [item.estimate for item in sent.candidates] == [2.0, inf]
+    assert list(sent.order) == [0, 1]
+    assert sent.request_id == 'id'
+
+
+def test_the_constants_of_the_messages_are_those_of_the_planner() -> None:
+    for code in Code:
+        assert getattr(msg.GeometricAnswer, code.name) == code
+    for scope in Scope:
+        assert getattr(msg.GeometricAnswer, scope.name) == scope
+    for result in AttemptResult:
+        assert getattr(msg.Attempt, result.name) == result
+
+
+def test_a_world_becomes_a_message() -> None:
+    sent = conversions.world_to_msg(read_world(WORLD, 'world.yaml'))
+    assert (sent.x_min, sent.y_min, sent.x_max, sent.y_max) == (0.0, 0.0, 800.0, 600.0)
+    circles = [item for item in sent.obstacles if not item.polygon]
+    assert {item.name for item in circles} == {'north_pillar', 'east_pillar', 'middle_pillar'}
+    assert all(item.radius > 0.0 for item in circles)
+    assert list(sent.objects[1].field_names) == ['x', 'y']
+    assert list(sent.objects[1].field_values) == [67.0, 171.0]
+    assert list(sent.robots[0].start) == []
+
+
+@pytest.fixture
+def node() -> Iterator[MotionPlannerNode]:
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=1 + os.getpid() % 200)
+    node = MotionPlannerNode(context=context)
+    yield node
+    node.destroy_node()
+    rclpy.shutdown(context=context)
+
+
+def test_a_fault_inside_a_request_is_answered_and_outlived(
+    node: MotionPlannerNode, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    accepted = node._set_world(srv.SetWorld.Request(yaml=WORLD), srv.SetWorld.Response())
+    assert accepted.accepted
+
+    def broken(*_: object) -> None:
+        raise ZeroDivisionError('broken on purpose')
+
+    with monkeypatch.context() as patched:
+        for name in ('satisfy', 'advise'):
+            patched.setattr(MotionPlanner, name, broken)
+        request = srv.SatisfyPreconditions.Request()
+        answer = node._satisfy(request, srv.SatisfyPreconditions.Response()).answer
+        assert (answer.status, answer.code) == (
+            msg.GeometricAnswer.ERROR,
+            msg.GeometricAnswer.INTERNAL,
+        )
+        assert 'ZeroDivisionError: broken on purpose' in answer.message
+        advice = node._advise(srv.Advise.Request(), srv.Advise.Response()).answer
+        assert advice.code == msg.GeometricAnswer.INTERNAL
+    request.request.preconditions = (
+        '((agent rover0)(setProperty(rover0.x, 20))(setProperty(rover0.y, 20))'
+        '(setProperty(rover0.heading, 0)))'
+    )
+    answer = node._satisfy(request, srv.SatisfyPreconditions.Response()).answer
+    assert answer.status == msg.GeometricAnswer.FOUND

@@ -1,0 +1,307 @@
+"""The motion planner as a process of its own, asked over ROS 2."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from math import inf, nan
+from pathlib import Path
+from typing import Any
+
+import pytest
+import rclpy
+from geohtn_msgs import msg, srv
+from rcl_interfaces.srv import DescribeParameters, SetParameters
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import Parameter
+
+PACKAGE = Path(__file__).resolve().parents[1]
+ROVER = PACKAGE.parent / 'interface_node' / 'missions' / 'rover' / 'world.yaml'
+PHOTO = (
+    '((agent rover0)(object {0})(distance(rover0, {0}) >= 50)(distance(rover0, {0}) <= 100)'
+    '(rel_angle(rover0, {0}) = cos-and-sin(pi/2)))'
+)
+DEADLINE = 60.0
+DOMAIN = 1 + os.getpid() % 200
+START = msg.AgentState(agent='rover0', x=20.0, y=20.0, heading=0.0)
+
+
+def start_node(*arguments: str) -> subprocess.Popen[str]:
+    environment = os.environ | {
+        'PYTHONPATH': os.pathsep.join([str(PACKAGE), os.environ.get('PYTHONPATH', '')]),
+        'ROS_DOMAIN_ID': str(DOMAIN),
+        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+        'PYTHONUNBUFFERED': '1',
+    }
+    return subprocess.Popen(
+        [sys.executable, '-m', 'motion_planner_node.node', *arguments],
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+
+
+def wait_until_ready(process: subprocess.Popen[str]) -> None:
+    assert process.stdout is not None
+    lines = []
+    for line in process.stdout:
+        lines.append(line)
+        if line.rstrip().endswith(': ready'):
+            return
+    raise AssertionError('the node ended before it was ready:\n' + ''.join(lines))
+
+
+class Asker:
+    """A client of the node; every wait has a deadline."""
+
+    def __init__(self) -> None:
+        self.context = rclpy.Context()
+        rclpy.init(context=self.context, domain_id=DOMAIN)
+        self.node = rclpy.create_node('asker', context=self.context, namespace='tests')
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.node)
+        self.events: list[Any] = []
+        self.node.create_subscription(
+            msg.PlanningEvent, '/planning_events', self.events.append, 100
+        )
+
+    def close(self) -> None:
+        self.executor.shutdown()
+        self.node.destroy_node()
+        rclpy.shutdown(context=self.context)
+
+    def spin_until(self, done: Callable[[], bool]) -> None:
+        end = time.monotonic() + DEADLINE
+        while not done():
+            assert time.monotonic() < end, 'the node did not answer in time'
+            self.executor.spin_once(timeout_sec=0.2)
+
+    def call(self, kind: Any, name: str, **fields: Any) -> Any:
+        client = self.node.create_client(kind, name)
+        try:
+            assert client.wait_for_service(timeout_sec=DEADLINE)
+            future = client.call_async(kind.Request(**fields))
+            self.spin_until(future.done)
+            return future.result()
+        finally:
+            self.node.destroy_client(client)
+
+    def satisfy(self, preconditions: str, **fields: Any) -> Any:
+        fields = {'start': [START]} | fields
+        request = msg.GeometricRequest(preconditions=preconditions, **fields)
+        return self.call(srv.SatisfyPreconditions, '/satisfy_preconditions', request=request).answer
+
+    def advise(self, *preconditions: str, **fields: Any) -> Any:
+        fields = {'start': [START]} | fields
+        request = msg.AdviceRequest(preconditions=list(preconditions), **fields)
+        return self.call(srv.Advise, '/advise', request=request).answer
+
+    def set_world(self, text: str) -> Any:
+        return self.call(srv.SetWorld, '/set_world', source='world.yaml', yaml=text)
+
+
+@pytest.fixture(scope='module')
+def process() -> Iterator[subprocess.Popen[str]]:
+    with start_node() as process:
+        wait_until_ready(process)
+        yield process
+        assert process.poll() is None, 'the node did not outlive the tests'
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(timeout=DEADLINE) == 0
+
+
+@pytest.fixture(scope='module')
+def asker(process: subprocess.Popen[str]) -> Iterator[Asker]:
+    asker = Asker()
+    yield asker
+    asker.close()
+
+
+@pytest.fixture
+def rover(asker: Asker) -> Asker:
+    assert asker.set_world(ROVER.read_text(encoding='utf-8')).accepted
+    return asker
+
+
+def test_without_a_world_everything_says_so(asker: Asker) -> None:
+    assert not asker.call(srv.GetWorld, '/get_world').available
+    assert asker.satisfy(PHOTO.format('location1')).code == msg.GeometricAnswer.NO_WORLD
+    assert asker.advise(PHOTO.format('location1')).code == msg.GeometricAnswer.NO_WORLD
+    check = asker.call(
+        srv.CheckPreconditions, '/check_preconditions', preconditions=PHOTO.format('?o')
+    )
+    assert check.valid
+
+
+def test_the_world_can_be_read_back_and_a_bad_one_leaves_it(rover: Asker) -> None:
+    held = rover.call(srv.GetWorld, '/get_world')
+    assert held.available
+    assert [item.label for item in held.world.objects] == [f'location{i}' for i in range(9)]
+    assert len(held.world.obstacles) == 13
+    assert held.world.robots[0].wheelbase == 8.0
+    for text in ('', 'bounds: [0, 0, nan, 1]', '{', '\x01', 'x' * (1 << 20) + 'x'):
+        refused = rover.set_world(text)
+        assert not refused.accepted
+        assert refused.diagnostics[0].message
+        assert refused.diagnostics[0].source == 'world.yaml'
+    assert rover.call(srv.GetWorld, '/get_world').world == held.world
+
+
+def test_a_request_is_answered_and_published(rover: Asker) -> None:
+    rover.events.clear()
+    answer = rover.satisfy(
+        PHOTO.format('location1'), request_id='r7', action=['!take_photo'], seed=2**64 - 1
+    )
+    assert answer.status == msg.GeometricAnswer.FOUND
+    assert answer.request_id == 'r7'
+    assert answer.motion.start == START
+    assert answer.length == pytest.approx(sum(part.length for part in answer.motion.segments))
+    assert 0.0 < answer.time_spent < DEADLINE
+    advice = rover.advise(PHOTO.format('location1'), PHOTO.format('location5'), request_id='a1')
+    assert list(advice.order) == [0, 1]
+    assert advice.candidates[0].lower_bound <= answer.length
+    rover.spin_until(lambda: len(rover.events) >= 2)
+    first, second = rover.events
+    assert (first.kind, second.kind) == (msg.PlanningEvent.REQUEST, msg.PlanningEvent.ADVICE)
+    assert first.request[0].action == ['!take_photo']
+    assert first.answer[0] == answer
+    assert second.advice_answer[0] == advice
+    assert second.advice_request[0].request_id == 'a1'
+    assert (first.received.sec, first.received.nanosec) <= (
+        first.answered.sec,
+        first.answered.nanosec,
+    )
+
+
+@pytest.mark.parametrize(
+    ('preconditions', 'fields', 'code'),
+    [
+        ('', {}, 'INVALID_PRECONDITIONS'),
+        ('\x07garbage \U0001f916', {}, 'INVALID_PRECONDITIONS'),
+        ('(' * 70_000, {}, 'INVALID_PRECONDITIONS'),
+        ('((agent ghost))', {}, 'UNKNOWN_AGENT'),
+        (PHOTO.format('ghost'), {}, 'UNKNOWN_OBJECT'),
+        (PHOTO.format('location1'), {'start': []}, 'NO_START'),
+        (PHOTO.format('location1'), {'start': [START, START]}, 'INVALID_START'),
+        (PHOTO.format('location1'), {'world_revision': 'x'}, 'WORLD_CHANGED'),
+        (PHOTO.format('location1'), {'behaviour': 'slowly'}, 'UNSUPPORTED'),
+        (PHOTO.format('location1'), {'time_budget': nan}, 'UNSUPPORTED'),
+        (PHOTO.format('location1'), {'time_budget': 1e-9, 'seed': 99}, 'OUT_OF_TIME'),
+        (
+            PHOTO.format('location1'),
+            {'start': [msg.AgentState(agent='rover0', x=inf)]},
+            'INVALID_START',
+        ),
+    ],
+)
+def test_nonsense_is_answered_with_its_cause(
+    rover: Asker, preconditions: str, fields: dict[str, Any], code: str
+) -> None:
+    answer = rover.satisfy(preconditions, **fields)
+    assert answer.code == getattr(msg.GeometricAnswer, code)
+    assert answer.message
+    assert answer.world_revision
+
+
+def test_advice_on_nonsense_is_answered_with_its_cause(rover: Asker) -> None:
+    assert rover.advise('((', world_revision='x').code == msg.GeometricAnswer.WORLD_CHANGED
+    assert rover.advise(purpose=9).code == msg.GeometricAnswer.UNSUPPORTED
+    assert rover.advise(start=[START, START]).code == msg.GeometricAnswer.INVALID_START
+    advice = rover.advise('((', PHOTO.format('location1'))
+    assert advice.candidates[0].code == msg.GeometricAnswer.INVALID_PRECONDITIONS
+    assert list(advice.order) == [1, 0]
+
+
+def test_a_heading_beyond_a_turn_is_wrapped(rover: Asker) -> None:
+    start = msg.AgentState(agent='rover0', x=20.0, y=20.0, heading=7.0)
+    answer = rover.satisfy(PHOTO.format('location1'), start=[start])
+    assert answer.status == msg.GeometricAnswer.FOUND
+    assert answer.motion.start.heading == pytest.approx(7.0 - 2.0 * 3.141592653589793)
+
+
+def test_checks_name_the_place_in_the_file(rover: Asker) -> None:
+    check = rover.call(
+        srv.CheckPreconditions,
+        '/check_preconditions',
+        preconditions='((agent ?r)(object ?o)\n (nearness(?r, ?o) <= 5))',
+        source='domain.lisp',
+        line=40,
+        column=7,
+    )
+    assert not check.valid
+    (remark,) = check.diagnostics
+    assert (remark.source, remark.line, remark.column) == ('domain.lisp', 41, 3)
+    assert 'nearness' in remark.message
+    assigns = rover.call(
+        srv.CheckPreconditions,
+        '/check_preconditions',
+        preconditions='((agent ?r)(object ?o)(setProperty(?r.x, ?o.x)))',
+    )
+    assert assigns.valid
+    assert assigns.assigns
+
+
+def test_parameters_are_described_changed_and_refused(rover: Asker) -> None:
+    described = rover.call(
+        DescribeParameters, '/motion_planner_node/describe_parameters', names=['time_budget']
+    )
+    assert described.descriptors[0].floating_point_range[0].to_value == 3600.0
+    assert '[s]' in described.descriptors[0].description
+
+    def change(name: str, value: object) -> Any:
+        parameters = [Parameter(name, value=value).to_parameter_msg()]
+        service = '/motion_planner_node/set_parameters'
+        return rover.call(SetParameters, service, parameters=parameters).results[0]
+
+    assert change('time_budget', 10).successful
+    refused = change('time_budget', 'soon')
+    assert not refused.successful
+    assert "not 'soon'" in refused.reason
+    assert not change('rounds', 0).successful
+    assert not change('world', 'other.yaml').successful
+    assert rover.satisfy(PHOTO.format('location1')).status == msg.GeometricAnswer.FOUND
+
+
+def test_replicas_give_the_same_answer(rover: Asker) -> None:
+    asked = [
+        rover.satisfy(PHOTO.format('location4'), alternative=alternative, seed=5)
+        for alternative in (2, 0, 2)
+    ]
+    for answer in asked:
+        answer.time_spent = 0.0
+    assert asked[0] == asked[2]
+    assert asked[0].motion != asked[1].motion
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'code', 'expected'),
+    [
+        (['--help'], 0, 'usage: motion_planner_node'),
+        (['--nonsense'], 2, 'unknown argument --nonsense'),
+        (['--ros-args', '-p', 'time_budget:=soon'], 2, "not 'soon'"),
+        (['--ros-args', '-p', 'rounds:=0'], 2, 'rounds'),
+        (['--ros-args', '-p', 'rounds'], 2, 'motion_planner_node: '),
+        (['--ros-args', '-p', 'world:=nowhere.yaml'], 2, 'nowhere.yaml: No such file'),
+    ],
+)
+def test_a_wrong_start_ends_in_a_sentence(arguments: list[str], code: int, expected: str) -> None:
+    with start_node(*arguments) as process:
+        output, _ = process.communicate(timeout=DEADLINE)
+    assert process.returncode == code
+    assert expected in output
+    assert 'Traceback' not in output
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_stops_the_node_cleanly(number: signal.Signals) -> None:
+    with start_node('--ros-args', '-p', f'world:={ROVER}') as process:
+        wait_until_ready(process)
+        process.send_signal(number)
+        output, _ = process.communicate(timeout=DEADLINE)
+    assert process.returncode == 0
+    assert 'Traceback' not in output

@@ -1,0 +1,277 @@
+"""The node itself: what it answers when the motion planner is missing or stuck, and how it stops."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+import rclpy
+from geohtn_msgs.action import PlanTasks
+from geohtn_msgs.msg import AgentState, GeometricAnswer, PlanningOptions, SourceText
+from geohtn_msgs.srv import Advise, CheckPreconditions, Explain, SatisfyPreconditions
+from rclpy.action import ActionClient
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from task_planner_node.node import NAME, TaskPlannerNode
+from task_planner_node.outcomes import Outcome
+
+DOMAIN_ID = 1 + os.getpid() % 100
+PATIENCE = 20.0
+ROVER = Path(__file__).parents[2] / 'interface_node' / 'missions' / 'rover'
+
+
+class TinyMotionPlanner(Node):
+    """Finds everything at once, or, when ``stuck``, answers no request before it is released."""
+
+    def __init__(self, context: Context, stuck: bool = False) -> None:
+        super().__init__('tiny_motion_planner', context=context)
+        self.release = threading.Event()
+        self.asked = threading.Event()
+        if not stuck:
+            self.release.set()
+        group = ReentrantCallbackGroup()
+        for kind, name, answer in (
+            (CheckPreconditions, 'check_preconditions', self.check),
+            (SatisfyPreconditions, 'satisfy_preconditions', self.satisfy),
+            (Advise, 'advise', self.advise),
+        ):
+            self.create_service(kind, name, answer, callback_group=group)
+
+    def check(self, request: Any, response: Any) -> Any:
+        response.valid = True
+        response.assigns = 'setProperty' in request.preconditions
+        return response
+
+    def satisfy(self, request: Any, response: Any) -> Any:
+        self.asked.set()
+        self.release.wait(PATIENCE)
+        request = request.request
+        response.answer = GeometricAnswer(
+            status=GeometricAnswer.FOUND,
+            request_id=request.request_id,
+            assigned='setProperty' in request.preconditions,
+            length=float(len(request.start)),
+            end=[AgentState(agent='rover0', x=1.0, y=2.0, heading=0.5)],
+        )
+        return response
+
+    def advise(self, request: Any, response: Any) -> Any:
+        count = len(request.request.preconditions)
+        response.answer.order = list(reversed(range(count)))
+        response.answer.candidates = []
+        return response
+
+
+@contextmanager
+def spinning(make: Callable[[Context], Node]) -> Iterator[Any]:
+    """A node in a context and threads of its own."""
+    context = Context()
+    rclpy.init(args=[], context=context, domain_id=DOMAIN_ID)
+    node = make(context)
+    executor = MultiThreadedExecutor(num_threads=4, context=context)
+    executor.add_node(node)
+
+    def spin() -> None:
+        try:
+            executor.spin()
+        except ExternalShutdownException:
+            return
+
+    thread = threading.Thread(target=spin)
+    thread.start()
+    try:
+        yield node
+    finally:
+        if isinstance(node, TinyMotionPlanner):
+            node.release.set()
+        executor.shutdown(timeout_sec=PATIENCE)
+        thread.join()
+        if isinstance(node, TaskPlannerNode):
+            node.close()
+        else:
+            node.destroy_node()
+        rclpy.shutdown(context=context)
+
+
+def wait(future: Any) -> Any:
+    done = threading.Event()
+    future.add_done_callback(lambda _: done.set())
+    assert done.wait(PATIENCE), 'no answer'
+    return future.result()
+
+
+class MissionClient(Node):
+    """Sends missions and waits for their ends."""
+
+    def __init__(self, context: Context) -> None:
+        super().__init__('mission_client', context=context)
+        self.actions = ActionClient(self, PlanTasks, 'plan_tasks')
+        self.explain = self.create_client(Explain, 'explain')
+        self.phases: list[str] = []
+
+    def send(self, mission: str, domain: SourceText, problem: SourceText) -> Any:
+        assert self.actions.wait_for_server(PATIENCE)
+        goal = PlanTasks.Goal(
+            mission=mission,
+            domain=domain,
+            problem=problem,
+            options=PlanningOptions(use_advice=True),
+        )
+        heard = self.actions.send_goal_async(
+            goal, lambda message: self.phases.append(message.feedback.progress.phase)
+        )
+        return wait(heard)
+
+    def plan(self, mission: str = 'm', domain: str = 'domain', problem: str = 'problem') -> Any:
+        sources = [
+            SourceText(path=str(ROVER / f'{name}.lisp'))
+            if name.isalpha()
+            else SourceText(text=name)
+            for name in (domain, problem)
+        ]
+        return wait(self.send(mission, *sources).get_result_async()).result
+
+    def why(self, mission: str) -> Any:
+        assert self.explain.wait_for_service(PATIENCE)
+        return wait(self.explain.call_async(Explain.Request(mission=mission)))
+
+
+@pytest.fixture
+def planner() -> Iterator[TaskPlannerNode]:
+    with spinning(TaskPlannerNode) as node:
+        node.set_parameters([Parameter('service_timeout', value=2.0)])
+        yield node
+
+
+@pytest.fixture
+def client(planner: TaskPlannerNode) -> Iterator[MissionClient]:
+    with spinning(MissionClient) as node:
+        yield node
+
+
+def test_without_a_motion_planner_the_mission_is_unavailable_and_the_next_one_is_served(
+    client: MissionClient,
+) -> None:
+    began = time.monotonic()
+    result = client.plan()
+    assert time.monotonic() - began < 5.0
+    assert result.outcome.value == Outcome.UNAVAILABLE
+    assert 'the motion planner is not running' in result.outcome.explanation
+    symbolic = '(defdomain d ((:operator (!a) () () ())))'
+    result = client.plan('symbolic', symbolic, '(defproblem p d () ((!a)))')
+    assert result.outcome.value == Outcome.SOLVED
+    assert [list(step.action) for step in result.steps] == [['!a']]
+    assert result.steps[0].answer == []
+    result = client.plan('bad', symbolic, '(defproblem p d () ((!b)))')
+    assert result.outcome.value == Outcome.INVALID
+    (diagnostic,) = result.outcome.diagnostics
+    assert (diagnostic.source, diagnostic.line, diagnostic.column) == ('<problem>', 1, 21)
+    assert client.why('').text == client.why('bad').text
+    assert 'not running' in client.why('m').text
+    assert not client.why('nobody').available
+
+
+def test_the_answers_of_the_motion_planner_are_passed_on_unopened(client: MissionClient) -> None:
+    with spinning(TinyMotionPlanner):
+        result = client.plan()
+    assert result.outcome.value == Outcome.SOLVED
+    assert len(result.steps) == 9
+    assert [len(step.start) for step in result.steps] == [0] + [1] * 8
+    assert [step.answer[0].request_id for step in result.steps][1].startswith('m:0:!take_photo')
+    assert result.statistics.requests == 9
+    assert client.phases[:2] == ['loading', 'checking']
+    # Backwards advice at every choice: the last goal first, and so on.
+    assert [step.action[2] for step in result.steps[1:3]] == ['location8', 'location7']
+
+
+@pytest.mark.parametrize('waits', ['running', 'queued'])
+def test_a_cancelled_mission_ends_at_once(client: MissionClient, waits: str) -> None:
+    files = [SourceText(path=str(ROVER / name)) for name in ('domain.lisp', 'problem.lisp')]
+    with spinning(lambda context: TinyMotionPlanner(context, stuck=True)) as tiny:
+        first = client.send('first', *files)
+        assert tiny.asked.wait(PATIENCE)
+        goal = first if waits == 'running' else client.send('second', *files)
+        began = time.monotonic()
+        wait(goal.cancel_goal_async())
+        result = wait(goal.get_result_async()).result
+        assert time.monotonic() - began < 0.5
+        assert result.outcome.value == Outcome.CANCELLED
+        tiny.release.set()
+        if waits == 'queued':
+            result = wait(first.get_result_async()).result
+            assert result.outcome.value == Outcome.SOLVED
+
+
+def test_a_stuck_motion_planner_is_given_up(
+    planner: TaskPlannerNode, client: MissionClient
+) -> None:
+    planner.set_parameters(
+        [Parameter('request_time_budget', value=0.2), Parameter('service_timeout', value=1.0)]
+    )
+    with spinning(lambda context: TinyMotionPlanner(context, stuck=True)):
+        result = client.plan()
+    assert result.outcome.value == Outcome.UNAVAILABLE
+    assert 'satisfy_preconditions' in result.outcome.explanation
+
+
+def test_a_wrong_parameter_is_refused_with_a_sentence(planner: TaskPlannerNode) -> None:
+    (answer,) = planner.set_parameters([Parameter('time_budget', value=-1.0)])
+    assert not answer.successful
+    assert 'from 0.1 to 86400 s' in answer.reason
+    (answer,) = planner.set_parameters([Parameter('time_budget', value=50)])
+    assert answer.successful
+
+
+def run_node(*arguments: str) -> subprocess.Popen[str]:
+    environment = {**os.environ, 'ROS_DOMAIN_ID': str(DOMAIN_ID)}
+    return subprocess.Popen(
+        [sys.executable, '-m', f'{NAME}.node', *arguments],
+        env=environment,
+        cwd=Path(__file__).parents[1],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+    )
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_stops_the_process_without_a_traceback(number: signal.Signals) -> None:
+    process = run_node()
+    assert process.stdout is not None
+    line = process.stdout.readline()
+    assert 'ready' in line, line + process.stdout.read()
+    process.send_signal(number)
+    rest, _ = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 0
+    assert rest == ''
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'code', 'text'),
+    [
+        (('--help',), 0, 'examples:'),
+        (('--ros-args', '-p', 'max_depth:=3'), 2, 'from 100 to 2e+06'),
+        (('--ros-args', '-p', 'time_budget:=soon'), 2, "not 'soon'"),
+        (('--nonsense',), 2, 'unrecognized'),
+    ],
+)
+def test_the_command_line(arguments: tuple[str, ...], code: int, text: str) -> None:
+    process = run_node(*arguments)
+    output, _ = process.communicate(timeout=PATIENCE)
+    assert process.returncode == code
+    assert text in output
+    assert 'Traceback' not in output
