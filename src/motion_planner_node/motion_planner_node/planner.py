@@ -127,15 +127,17 @@ class MotionPlanner:
 
 
 def warm_up() -> None:
-    """Compile the numerical kernels, or load them, so that the first request need not."""
-    agent, here = 'robot', Attitude(2.0, 5.0, 0.0)
-    car = CarModel(agent, wheelbase=0.5, max_steering_angle=0.5, radius=0.5, speed=1.0)
-    wall = Polygon('wall', ((4.9, 1.0), (5.1, 1.0), (5.1, 9.0), (4.9, 9.0)))
-    pillar = Circle('pillar', (8.0, 8.0), 0.5)
-    goal = WorldObject('goal', {'x': 8.0, 'y': 5.0})
-    bounds = Bounds(0.0, 0.0, 10.0, 10.0)
-    world = World('', '', bounds, {'goal': goal}, (wall, pillar), {agent: car})
-    planner = MotionPlanner(world)
-    text = '((agent robot)(object goal)(distance(robot, goal) <= 1))'
+    """Compile the numerical kernels, or load them, so that the first request need not.
+
+    Takes some ten seconds the first time and about one when the kernels are cached on disk.
+    """
+    agent, here = 'robot', Attitude(20.0, 10.0, 0.0)
+    car = CarModel(agent, wheelbase=1.0, max_steering_angle=0.5, radius=1.0, speed=1.0)
+    wall = Polygon('wall', ((40.0, 0.0), (44.0, 0.0), (44.0, 40.0), (40.0, 40.0)))
+    tree = Circle('tree', (60.0, 50.0), 3.0)
+    goal = WorldObject('goal', {'x': 60.0, 'y': 10.0})
+    bounds = Bounds(0.0, 0.0, 80.0, 80.0)
+    planner = MotionPlanner(World('', '', bounds, {'goal': goal}, (wall, tree), {agent: car}))
+    text = '((agent robot)(object goal)(distance(robot, goal) <= 5))'
     planner.satisfy(GeometricRequest(text, {agent: here}))
     planner.advise(AdviceRequest((text,), {agent: here}))

@@ -124,12 +124,12 @@ def test_contradictions_show_without_any_world(constraints: str) -> None:
     assert [diagnostic.code for diagnostic in found] == [Code.CONTRADICTION]
 
 
-def test_a_contradiction_names_both_places_and_numbers() -> None:
+def test_a_contradiction_names_both_constraints() -> None:
     text = VARIABLE + '\n(distance(?r, ?o) >= 60)\n (distance(?r, ?o) <= 50)'
     (found,) = check(parse(text), None)
     assert (found.line, found.column) == (3, 3)
     assert found.message == (
-        'distance(?r, ?o) >= 60 (line 2, column 2) and distance(?r, ?o) <= 50 exclude each other'
+        'distance(?r, ?o) >= 60 and distance(?r, ?o) <= 50 exclude each other'
     )
 
 

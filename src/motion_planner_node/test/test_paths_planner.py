@@ -14,7 +14,8 @@ import pytest
 import shapely
 
 from motion_planner_node.errors import Stopped
-from motion_planner_node.paths import PathBudget, PathOutcome, PathResult, plan_path, warm_up
+from motion_planner_node.paths import PathBudget, PathOutcome, PathResult, plan_path
+from motion_planner_node.planner import warm_up
 from motion_planner_node.robots.motion import Attitude, Motion
 from motion_planner_node.world import Scene, read_world
 from motion_planner_node.world.model import Bounds, CarModel, Circle, Obstacle, Polygon, World

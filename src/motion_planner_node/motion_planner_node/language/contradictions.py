@@ -72,9 +72,7 @@ def _diagnostic(constraint: Constraint, message: str) -> Diagnostic:
 
 
 def _sentence(first: _Bound, second: _Bound) -> str:
-    place = first.constraint
-    where = f' (line {place.line}, column {place.column})' if place.line else ''
-    return f'{to_text(first.constraint)}{where} and {to_text(second.constraint)} exclude each other'
+    return f'{to_text(first.constraint)} and {to_text(second.constraint)} exclude each other'
 
 
 def _never_holds(constraint: Constraint, form: Linear, periodic: bool) -> str:

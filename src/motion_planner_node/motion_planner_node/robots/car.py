@@ -101,9 +101,9 @@ def dubins_words(start: Attitude, end: Attitude, car: CarModel) -> list[tuple[Se
     for word in range(len(TURNS)):
         pieces = dubins_pieces(word, start, end, car)
         if pieces is not None:
-            words.append((sum(pieces), word, word_segments(word, pieces, car)))
-    words.sort(key=lambda entry: entry[:2])
-    return [segments for _, _, segments in words]
+            words.append(word_segments(word, pieces, car))
+    # The segments' own lengths, not the pieces': leaving out a tiny piece changes the sum.
+    return sorted(words, key=lambda segments: sum(segment.length for segment in segments))
 
 
 def dubins_lengths(

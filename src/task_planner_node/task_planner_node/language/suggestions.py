@@ -11,5 +11,5 @@ MOST_COMPARED = 2000
 def did_you_mean(word: str, known: Iterable[str]) -> str:
     """A half-sentence ``; did you mean ...?`` to append, or an empty text."""
     candidates = sorted(set(known) - {word})[:MOST_COMPARED]
-    close = get_close_matches(word, candidates, n=1, cutoff=0.7)
+    close = get_close_matches(word, candidates, n=1, cutoff=0.6)
     return f'; did you mean {close[0]}?' if close else ''
