@@ -97,7 +97,7 @@ def main() -> None:
     seeds = range(arguments.seed, arguments.seed + arguments.runs)
     methods: dict[str, dict[str, Any]] = {}
     with nodes_up(namespace):
-        plan(namespace, arguments.seed)
+        plan(namespace, arguments.seed + arguments.runs)
         methods['with advice'] = summary([plan(namespace, seed) for seed in seeds])
         methods['without advice'] = summary(
             [plan(namespace, seed, '--no-advice') for seed in seeds]
