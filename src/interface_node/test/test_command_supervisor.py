@@ -121,7 +121,7 @@ def test_grandchildren_of_a_dead_child_are_ended(supervised: Starter) -> None:
 
 
 def test_a_death_is_noticed_with_its_cause_and_last_words(supervised: Starter) -> None:
-    script = "import sys\nfor k in range(100): print('line', k)\nsys.exit('the end')"
+    script = "import sys\nfor k in range(100): print('line', k, flush=True)\nsys.exit('the end')"
     supervisor, _ = supervised((POLITE,), (script,))
     assert wait_until(lambda: supervisor.death() is not None)
     death = supervisor.death()
