@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from workspace import build, prerequisites, venv
+from workspace import build, kernels, prerequisites, venv
 from workspace.commands import complain, say
 from workspace.layout import Layout
 from workspace.problems import SetUpError
@@ -24,7 +24,9 @@ def main() -> int:
             if ros is not None and (python := prerequisites.python_of(ros)) is not None:
                 os.execv(python, [str(python), str(layout.workspace / 'set_up.py')])
             prerequisites.check(ros)
-            build.build(layout, ros, venv.make(layout, ros))
+            packages = venv.make(layout, ros)
+            build.build(layout, ros, packages)
+            kernels.compile_kernels(layout, ros, packages)
     except (SetUpError, OSError) as problem:
         complain(str(problem))
         return 2
