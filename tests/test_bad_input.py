@@ -163,7 +163,12 @@ FAULTS = [
         line_of('world.yaml', 'location3:'),
     ),
     *(
-        Fault(f'50 MB of {file}', file, lambda path: path.write_bytes(b'(' * HUGE), ('50.0 MiB', 'at most 1 MiB'))
+        Fault(
+            f'50 MB of {file}',
+            file,
+            lambda path: path.write_bytes(b'(' * HUGE),
+            ('50.0 MiB', 'at most 1 MiB'),
+        )
         for file in ('domain.lisp', 'problem.lisp', 'world.yaml')
     ),
     *(

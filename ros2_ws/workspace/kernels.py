@@ -19,7 +19,7 @@ def compile_kernels(layout: Layout, ros: SourcedRos | None, venv: str) -> None:
     Raises:
         SetUpError: they could not be compiled.
     """
-    package = layout.packages / 'motion_planner_node'
+    package = layout.packages / 'motion_planner_node' / 'motion_planner_node'
     sources = [path for path in stamps.files_below(package) if path.suffix == '.py']
     made_from = stamps.fingerprint([venv], [*sources, Path(__file__)])
     stamp = layout.workspace / 'build' / 'kernels.stamp'

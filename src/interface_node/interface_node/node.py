@@ -16,10 +16,11 @@ from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.action.server import ServerGoalHandle
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
-from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 from visualization_msgs.msg import MarkerArray
 
@@ -29,6 +30,7 @@ from interface_node.outputs_node import Outputs
 from interface_node.parameters import PARAMETERS, Parameters, checked, table
 from interface_node.peers_node import Peers
 from interface_node.plan import Plan
+from interface_node.signals import interrupt_on_signals
 
 USAGE = f"""\
 usage: interface_node [--help] [--ros-args ...]
@@ -75,6 +77,7 @@ class InterfaceNode(Node):
         self._publish_map = self.create_publisher(OccupancyGrid, 'map', latched).publish
         self._publish_markers = self.create_publisher(MarkerArray, 'markers', latched).publish
         self._busy = threading.Lock()
+        self._stopping = threading.Event()
         self._outputs: Outputs | None = None
         self.create_subscription(
             PlanningEvent,
@@ -93,7 +96,12 @@ class InterfaceNode(Node):
             cancel_callback=lambda _: CancelResponse.ACCEPT,
             callback_group=ReentrantCallbackGroup(),
         )
-        self.get_logger().info('ready')
+
+    def finish(self, patience: float) -> None:
+        """Cancel the mission that is being planned, and wait at most ``patience`` [s] for its end."""
+        self._stopping.set()
+        if self._busy.acquire(timeout=patience):
+            self._busy.release()
 
     def destroy_node(self) -> None:
         """Close the action's server as well."""
@@ -182,14 +190,13 @@ class InterfaceNode(Node):
                     now=lambda: self.get_clock().now().to_msg(),
                     report=lambda progress: self._report(handle, progress),
                     show=self._show,
-                    should_stop=lambda: handle.is_cancel_requested or not self.context.ok(),
+                    should_stop=lambda: handle.is_cancel_requested or self._stopping.is_set(),
                 ),
             ).run()
         finally:
             outputs.abandon()
-        if self.context.ok():
-            explanation = result.outcome.explanation or 'planned'
-            self.get_logger().info(f'mission {mission_id}: {explanation}')
+        explanation = result.outcome.explanation or 'planned'
+        self.get_logger().info(f'mission {mission_id}: {explanation}')
         return result
 
     def _report(self, handle: ServerGoalHandle, progress: PlanningProgress) -> None:
@@ -226,26 +233,41 @@ def main(arguments: list[str] | None = None) -> int:
         wanted = own[0] in ('--help', '-h')
         print(USAGE if wanted else f'unknown argument {own[0]}\n\n{USAGE}', end='')
         return 0 if wanted else 2
+    rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
+    interrupt_on_signals()
     try:
-        rclpy.init(args=arguments)
         _serve()
-    except (KeyboardInterrupt, ExternalShutdownException):
+    except KeyboardInterrupt:
         return 0
     except ValueError as error:
         print(f'interface_node: {error}', file=sys.stderr)
         return 2
     finally:
-        rclpy.try_shutdown()
+        rclpy.shutdown()
     return 0
 
 
 def _serve() -> None:
     node = InterfaceNode()
     executor = MultiThreadedExecutor(num_threads=4)
+    executor.add_node(node)
+    stopped = threading.Event()
+
+    def spin() -> None:
+        while not stopped.is_set():
+            executor.spin_once(timeout_sec=0.5)
+
+    spinning = threading.Thread(target=spin)
     try:
-        executor.add_node(node)
-        executor.spin()
+        spinning.start()
+        node.get_logger().info('ready')
+        while spinning.is_alive():
+            stopped.wait(0.5)
     finally:
+        node.finish(2.0)
+        stopped.set()
+        executor.wake()
+        spinning.join()
         executor.shutdown(timeout_sec=2.0)
         node.destroy_node()
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import threading
 import traceback
 from collections.abc import Callable
 from pathlib import Path
@@ -13,10 +14,11 @@ import rclpy
 from geohtn_msgs import msg, srv
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.exceptions import InvalidParameterValueException
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
 from motion_planner_node import conversions
@@ -32,6 +34,7 @@ from motion_planner_node.planner import MotionPlanner, warm_up
 from motion_planner_node.planning.answers import refused
 from motion_planner_node.planning.check import check_text
 from motion_planner_node.requests import GeometricAnswer
+from motion_planner_node.signals import interrupt_on_signals
 from motion_planner_node.world import read_world
 from motion_planner_node.world.syntax import LONGEST_TEXT
 
@@ -73,6 +76,7 @@ class MotionPlannerNode(Node):
     def __init__(self, **options: object) -> None:
         super().__init__('motion_planner_node', **options)
         self._planner: MotionPlanner | None = None
+        self.stopping = threading.Event()
         try:
             self._prepare()
         except BaseException:
@@ -238,7 +242,7 @@ class MotionPlannerNode(Node):
 
     def _deadline(self, started: float, budget: float) -> Callable[[], bool]:
         end = started + (budget or self._settings.time_budget)
-        return lambda: perf_counter() > end or not self.context.ok()
+        return lambda: perf_counter() > end or self.stopping.is_set()
 
     def _guarded(self, work: Callable[[], Result]) -> Result:
         """Do ``work``; whatever goes wrong becomes a MotionPlannerError, so the node outlives it."""
@@ -284,35 +288,42 @@ def main(arguments: list[str] | None = None) -> int:
         own = remove_ros_args(arguments)[1:]
         if own:
             return _usage(own)
-        rclpy.init(args=arguments)
+        rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
     except RuntimeError as error:  # how rcl refuses its arguments
         return _refuse(error)
+    interrupt_on_signals()
     try:
         _serve()
-    except (KeyboardInterrupt, ExternalShutdownException):
+    except KeyboardInterrupt:
         pass
     except (ParameterError, MotionPlannerError) as error:
         return _refuse(error)
-    except RuntimeError:  # what rcl raises in the middle of an exchange once it was shut down
-        if rclpy.ok():
-            raise
     finally:
-        rclpy.try_shutdown()
+        rclpy.shutdown()
     return 0
 
 
 def _serve() -> None:
+    node = MotionPlannerNode()
     executor = SingleThreadedExecutor()
+    executor.add_node(node)
+
+    def spin() -> None:
+        while not node.stopping.is_set():
+            executor.spin_once(timeout_sec=0.5)
+
+    spinning = threading.Thread(target=spin)
     try:
-        node = MotionPlannerNode()
-        try:
-            executor.add_node(node)
-            node.get_logger().info('ready')
-            executor.spin()
-        finally:
-            node.destroy_node()
+        spinning.start()
+        node.get_logger().info('ready')
+        while spinning.is_alive():
+            node.stopping.wait(0.5)
     finally:
+        node.stopping.set()
+        executor.wake()
+        spinning.join()
         executor.shutdown()
+        node.destroy_node()
 
 
 def _usage(arguments: list[str]) -> int:

@@ -21,7 +21,7 @@ from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.action.server import ServerGoalHandle
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
@@ -86,15 +86,19 @@ class TaskPlannerNode(Node):
             callback_group=group,
         )
         self.create_service(Explain, 'explain', self._explain, callback_group=group)
-        self.get_logger().info('ready')
+
+    def finish(self) -> None:
+        """End the search that is running, and let none begin."""
+        self.stopping.set()
+        with self._turn:
+            pass
 
     def close(self) -> None:
         """End the searches, then destroy everything."""
-        self.stopping.set()
-        with self._turn:
-            self._motion_planner.close()
-            self._server.destroy()
-            self.destroy_node()
+        self.finish()
+        self._motion_planner.close()
+        self._server.destroy()
+        self.destroy_node()
 
     def _set_parameters(self, changes: list[Parameter]) -> SetParametersResult:
         values = {p.name: getattr(self._settings, p.name) for p in PARAMETERS}
@@ -214,19 +218,22 @@ def _serve(context: Context, stop: threading.Event) -> int:
     executor = MultiThreadedExecutor(num_threads=4, context=context)
     executor.add_node(node)
 
-    def spin() -> None:
-        try:
-            executor.spin()
-        except ExternalShutdownException:
-            return
+    stopped = threading.Event()
 
-    thread = threading.Thread(target=spin, daemon=True)
+    def spin() -> None:
+        while not stopped.is_set():
+            executor.spin_once(timeout_sec=0.5)
+
+    thread = threading.Thread(target=spin)
     thread.start()
+    node.get_logger().info('ready')
     while not stop.wait(0.5) and thread.is_alive():
         continue
-    node.stopping.set()
+    node.finish()
+    stopped.set()
+    executor.wake()
+    thread.join()
     executor.shutdown(timeout_sec=2.0)
-    thread.join(timeout=2.0)
     node.close()
     return 0
 
