@@ -206,6 +206,18 @@ def test_where_another_agent_matters_a_proof_holds_for_now() -> None:
     assert (answer.code, answer.scope) == (Code.UNREACHABLE, Scope.THIS_START)
 
 
+def test_an_assignment_that_another_agent_is_in_the_way_of_is_impossible_for_now() -> None:
+    text = (
+        '((agent rover0)(agent rover1)(object tree)'
+        '(setProperty(rover0.x, tree.x))(setProperty(rover0.y, tree.y))'
+        '(setProperty(rover0.heading, 0))(distance(rover0, rover1) >= 30))'
+    )
+    near_by, far_off = Attitude(110.0, 100.0, 0.0), Attitude(20.0, 100.0, 0.0)
+    answer = ask(text, start={'rover1': near_by})
+    assert (answer.code, answer.scope) == (Code.CONTRADICTION, Scope.THIS_START)
+    assert ask(text, start={'rover1': far_off}).status is Status.FOUND
+
+
 def test_the_request_says_which_of_several_agents_moves() -> None:
     start = {**START, 'rover1': Attitude(180.0, 100.0, 0.0)}
     text = '((agent rover0)(agent rover1)(distance(rover0, rover1) <= 60))'

@@ -13,7 +13,7 @@ from motion_planner_node.codes import AttemptResult, Code, Scope
 from motion_planner_node.errors import MotionPlannerError
 from motion_planner_node.planning.ground import Ground
 from motion_planner_node.planning.problem import Problem
-from motion_planner_node.planning.proofs import Impossible
+from motion_planner_node.planning.proofs import Impossible, scope_of
 from motion_planner_node.planning.stream import Found
 from motion_planner_node.planning.tried import Tried
 from motion_planner_node.requests import GeometricAnswer
@@ -73,7 +73,8 @@ def assigned(
         return replace(
             about,
             code=Code.CONTRADICTION,
-            scope=_scope_of_assignment(problem),
+            # The constraints may speak of other agents, who will not stand where they do now.
+            scope=scope_of(problem, _scope_of_assignment(problem)),
             message=f'the attitude set for {problem.agent} will not do: {missed[0]}',
         )
     if alternative:

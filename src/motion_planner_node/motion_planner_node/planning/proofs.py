@@ -64,14 +64,14 @@ def walled_off(problem: Problem, ground: Ground, hopeful: NDArray[np.intp]) -> I
 def _no_free_place(problem: Problem, ground: Ground) -> Impossible:
     sentence = problem.program.contradiction(ground.scene.world.bounds)
     if sentence:
-        return Impossible(Code.CONTRADICTION, _scope(problem, Scope.ANY_START), sentence)
+        return Impossible(Code.CONTRADICTION, scope_of(problem, Scope.ANY_START), sentence)
     everywhere = ground.everywhere
     places = everywhere.boxes.chosen(everywhere.select(problem.program.position_cells))
     near = (ground.scene.nearest_obstacle(x, y) for x, y in zip(*places.centres, strict=True))
     names = sorted({name for name, clearance in near if clearance < ground.car.radius})
     return Impossible(
         Code.NO_FREE_DESTINATION,
-        _scope(problem, Scope.ANY_START),
+        scope_of(problem, Scope.ANY_START),
         f'every place from which {_wanted(problem)} holds is blocked by {_listed(names)} '
         f'for a robot of radius {ground.car.radius:g} m',
         f'move {_listed(names)} or relax the constraints',
@@ -96,14 +96,14 @@ def _enclosed(problem: Problem, ground: Ground, here: int, there: int) -> Imposs
         )
     return Impossible(
         Code.UNREACHABLE,
-        _scope(problem, Scope.CONNECTED_STARTS),
+        scope_of(problem, Scope.CONNECTED_STARTS),
         message,
         f'open a passage wider than {2.0 * ground.car.radius:g} m through '
         f'{_listed(walls.obstacles)}',
     )
 
 
-def _scope(problem: Problem, widest: Scope) -> Scope:
+def scope_of(problem: Problem, widest: Scope) -> Scope:
     """Where other agents matter, a proof holds for where they are now."""
     return widest if len(problem.program.agents) == 1 else Scope.THIS_START
 
