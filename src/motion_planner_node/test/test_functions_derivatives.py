@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from motion_planner_node.functions import FUNCTIONS, Dual, Place
 
@@ -30,7 +31,7 @@ def place(x: float, y: float) -> Place[Dual]:
     return Place(Dual.constant(x), Dual.constant(y), Dual.constant(math.nan))
 
 
-def gradient(result: Dual) -> np.ndarray:
+def gradient(result: Dual) -> NDArray[np.float64]:
     assert result.gradient is not None
     return result.gradient[:, 0]
 

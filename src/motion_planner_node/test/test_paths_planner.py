@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from numpy.typing import NDArray
 
 from motion_planner_node.errors import Stopped
 from motion_planner_node.paths import PathBudget, PathOutcome, PathResult, plan_path
@@ -40,7 +41,7 @@ def scene_of(*obstacles: Obstacle) -> Scene:
     return Scene(World('', '', Bounds(0, 0, 800, 600), {}, obstacles, {'rover0': CAR}))
 
 
-def drive(motion: Motion, car: CarModel) -> tuple[np.ndarray, Attitude]:
+def drive(motion: Motion, car: CarModel) -> tuple[NDArray[np.float64], Attitude]:
     """Points (n, 2) on the motion, circles drawn from their centres, and where it ends."""
     x, y, heading = motion.start.x, motion.start.y, motion.start.heading
     points = [(x, y)]

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from motion_planner_node.planning.boxes import Boxes, Pyramid
 from motion_planner_node.planning.cache import Cache
@@ -20,8 +21,11 @@ def test_a_pyramid_answers_like_every_single_box(x: float, y: float, radius: flo
     boxes = Boxes.tiling(-20.0, -10.0, 30.0, 25.0, 23)
 
     def touched(
-        x_lo: np.ndarray, x_hi: np.ndarray, y_lo: np.ndarray, y_hi: np.ndarray
-    ) -> np.ndarray:
+        x_lo: NDArray[np.float64],
+        x_hi: NDArray[np.float64],
+        y_lo: NDArray[np.float64],
+        y_hi: NDArray[np.float64],
+    ) -> NDArray[np.float64]:
         return Boxes.of(x_lo, x_hi, y_lo, y_hi).distances(x, y) <= radius
 
     selected = Pyramid(boxes).select(touched)

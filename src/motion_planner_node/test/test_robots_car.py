@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 from ompl import base
 
 from motion_planner_node.robots.arcs import wrap_angle
@@ -37,7 +38,7 @@ def attitudes(draw: st.DrawFn) -> Attitude:
 def integrate_numerically(start: Attitude, driven: list[Segment]) -> Attitude:
     """Runge-Kutta on the paper's differential equations, in steps of 5 cm at most."""
 
-    def slope(state: np.ndarray, steering_angle: float) -> np.ndarray:
+    def slope(state: NDArray[np.float64], steering_angle: float) -> NDArray[np.float64]:
         return np.array([cos(state[2]), sin(state[2]), tan(steering_angle) / CAR.wheelbase])
 
     state = np.array([start.x, start.y, start.heading])

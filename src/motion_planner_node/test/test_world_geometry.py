@@ -9,6 +9,7 @@ import pytest
 import shapely
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from motion_planner_node.robots.car import sample
 from motion_planner_node.robots.motion import Attitude, Motion, Segment
@@ -52,7 +53,7 @@ motions = st.builds(
 )
 
 
-def true_clearances(world: World, points: np.ndarray) -> np.ndarray:
+def true_clearances(world: World, points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Signed distances by shapely, discs by their centres."""
     b = world.bounds
     x, y = points[:, 0], points[:, 1]

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from math import inf, isfinite, nan, pi, remainder
 
 import numpy as np
+from numpy.typing import NDArray
 
 from motion_planner_node.codes import Code
 from motion_planner_node.errors import Diagnostic
@@ -108,7 +109,7 @@ def _never_holds(constraint: Constraint, form: Linear, periodic: bool) -> str:
     return 'the two sides cannot come together'
 
 
-def _rounded(value: np.float64 | np.ndarray) -> str:
+def _rounded(value: np.float64 | NDArray[np.float64]) -> str:
     return number_to_text(round(float(value), 9) + 0.0)
 
 
