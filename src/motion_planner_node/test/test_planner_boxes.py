@@ -25,7 +25,7 @@ def test_a_pyramid_answers_like_every_single_box(x: float, y: float, radius: flo
         x_hi: NDArray[np.float64],
         y_lo: NDArray[np.float64],
         y_hi: NDArray[np.float64],
-    ) -> NDArray[np.float64]:
+    ) -> NDArray[np.bool_]:
         return Boxes.of(x_lo, x_hi, y_lo, y_hi).distances(x, y) <= radius
 
     selected = Pyramid(boxes).select(touched)
