@@ -42,6 +42,10 @@ class LimitReached(Exception):
     """A limit of time, memory or depth ended the search; the message is a sentence."""
 
 
+class TermRefused(LimitReached):
+    """A term that nests too deeply, or a dotted pair that is no list."""
+
+
 class Cancelled(Exception):
     """The client took the mission back."""
 

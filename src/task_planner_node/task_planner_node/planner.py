@@ -89,7 +89,7 @@ class Planner:
         self._say('checking', force=True)
         mission = check_and_compile(domain, problem, self._oracle)
         facts = [(fact.name, *fact.args) for fact in problem.facts]
-        self._state = State(mission.domain.plan, facts)
+        self._state = State(mission.domain.plan, facts, self._check)
         self._domain = domain
         geometry = Geometry(
             self._oracle,

@@ -109,6 +109,11 @@ def rover_motion_planner() -> type[RoverMotionPlanner]:
 
 
 @pytest.fixture(scope='session')
+def no_motion_planner() -> NoMotionPlanner:
+    return NoMotionPlanner()
+
+
+@pytest.fixture(scope='session')
 def rover_mission() -> tuple[str, str]:
     """Domain and problem of the paper."""
     return (ROVER / 'domain.lisp').read_text(), (ROVER / 'problem.lisp').read_text()

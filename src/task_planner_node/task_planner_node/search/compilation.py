@@ -171,6 +171,7 @@ def _matching(
 
     def solutions(state: State, frame: Frame) -> Iterator[None]:
         for fact in state.buckets[number].get(key(frame), ()):
+            state.work += 1
             bound: list[int] = []
             if all(match(term, fact[position], frame, bound) for position, term in free):
                 yield

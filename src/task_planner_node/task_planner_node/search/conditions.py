@@ -36,12 +36,13 @@ class Conjunction:
         self._only_checks = all(isinstance(goal, Check) for goal in self.goals)
 
     def solutions(self, state: State, frame: Frame) -> Iterator[None]:
-        """Bind the frame to one solution after the other."""
+        """Bind the frame to one solution after the other; counts what it tries as work of the state."""
         goals = self.goals
         count = len(goals)
         choices: list[tuple[int, Iterator[None]]] = []
         index = 0
         while True:
+            first = index
             while index < count:
                 goal = goals[index]
                 if isinstance(goal, Check):
@@ -55,6 +56,9 @@ class Conjunction:
                 index += 1
             else:
                 yield
+            state.work += index - first + 1
+            if state.work > state.next_look:
+                state.look()
             while choices:
                 index, iterator = choices[-1]
                 if next(iterator, iterator) is iterator:

@@ -8,21 +8,20 @@ is dead, and with it every network that holds it, whatever the order of the othe
 from __future__ import annotations
 
 from collections.abc import Iterable
+from math import inf
 
+from task_planner_node.errors import MissionError, TermRefused
 from task_planner_node.language.model import show
 from task_planner_node.oracle import Token
 from task_planner_node.search.dead_ends import DeadEnd
 from task_planner_node.search.domain import CompiledDomain, CompiledOperator
 from task_planner_node.search.geometry import Geometry, Nogood
 from task_planner_node.search.network import Task, all_tasks
-from task_planner_node.search.state import State
+from task_planner_node.search.state import State, TooMuchWork
 
 MOST_BINDINGS = 20_000
+MOST_WORK = 500_000
 MOST_REASONS = 20
-
-
-class _TooLarge(Exception):
-    """The relaxation has more bindings than it is worth to look at."""
 
 
 def prove_dead(
@@ -34,12 +33,16 @@ def prove_dead(
 ) -> list[DeadEnd]:
     """The reasons why not all of ``tasks`` can be done from ``state`` on; empty when nothing is proven.
 
+    Nothing is proven either when the relaxation is too large, or when an axiom or a term in it cannot be
+    evaluated: with every branch open, it goes where no decomposition may ever come.
+
     What is impossible for the attitudes connected to ``lineage`` counts unless an attitude may be assigned
     anew: the first assignment would have to come after tasks that are all subject to it.
     """
     wanted = list(dict.fromkeys(tasks))
     mark = state.mark()
     state.relaxed = True
+    state.most_work = state.work + MOST_WORK
     try:
         for assumed in (lineage, None):
             relaxation = _Relaxation(domain, state, geometry, assumed)
@@ -48,11 +51,12 @@ def prove_dead(
                 return relaxation.reasons(wanted)
             state.undo(mark)
         return []
-    except _TooLarge:
+    except (TooMuchWork, RecursionError, MissionError, TermRefused):
         return []
     finally:
         state.undo(mark)
         state.relaxed = False
+        state.most_work = inf
 
 
 class _Relaxation:
@@ -89,7 +93,7 @@ class _Relaxation:
     def _count(self) -> None:
         self._bindings += 1
         if self._bindings > MOST_BINDINGS:
-            raise _TooLarge
+            raise TooMuchWork
 
     def _apply(self, operator: CompiledOperator, task: Task) -> bool:
         frame = operator.bind(task)
@@ -133,7 +137,8 @@ class _Relaxation:
         changed = True
         while changed:
             changed = False
-            for task, ways in self._decompositions.items():
+            for task, ways in reversed(self._decompositions.items()):
+                self._state.worked(len(ways))
                 if task not in self._done and any(self._done.issuperset(way) for way in ways):
                     self._done.add(task)
                     changed = True

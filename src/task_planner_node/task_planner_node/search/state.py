@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from math import inf
 from operator import itemgetter
 from typing import Any
 
 Fact = tuple[Any, ...]
 Bucket = tuple[Fact, ...]
+# Goals tried between two looks at the limits of the search: well below 0.1 s.
+LOOK_INTERVAL = 4096
+
+
+class TooMuchWork(Exception):
+    """An enumeration took more work than it is worth."""
 
 
 class IndexPlan:
@@ -42,9 +49,18 @@ class State:
     Buckets are immutable tuples, so an enumeration survives changes that are undone before it goes on.
     With ``relaxed`` set, negative preconditions count as satisfied and every branch is open: an
     over-approximation of what can become true.  ``changed`` holds the facts that differ from the initial ones.
+
+    ``work`` counts the goals tried by whoever enumerates; beyond ``next_look`` it calls look(), which calls
+    ``watch`` and raises TooMuchWork beyond ``most_work``.
     """
 
-    def __init__(self, plan: IndexPlan, facts: Iterable[Fact]) -> None:
+    def __init__(
+        self, plan: IndexPlan, facts: Iterable[Fact], watch: Callable[[], None] = lambda: None
+    ) -> None:
+        self.work = 0
+        self.next_look = LOOK_INTERVAL
+        self.most_work = inf
+        self._watch = watch
         self.facts: set[Fact] = set()
         self.buckets: list[dict[Any, Bucket]] = [{} for _ in range(len(plan))]
         self.relaxed = False
@@ -91,6 +107,19 @@ class State:
             changes.append((buckets, key, old))
         self._trail.append((fact, False, changes))
         return True
+
+    def worked(self, amount: int) -> None:
+        """Count work that is no enumeration of goals."""
+        self.work += amount
+        if self.work > self.next_look:
+            self.look()
+
+    def look(self) -> None:
+        """Raise what the limits of the search raise, and TooMuchWork."""
+        if self.work > self.most_work:
+            raise TooMuchWork
+        self._watch()
+        self.next_look = self.work + LOOK_INTERVAL
 
     def mark(self) -> int:
         """A point to undo to."""

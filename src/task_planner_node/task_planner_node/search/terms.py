@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from operator import itemgetter
 from typing import Any
 
-from task_planner_node.errors import LimitReached
+from task_planner_node.errors import TermRefused
 from task_planner_node.language.model import Pattern, Term, Variable, shorten, show
 
 Frame = list[Any]
@@ -90,14 +90,14 @@ def match(term: Compiled, value: object, frame: Frame, bound: list[int]) -> bool
 
 
 def build(term: Compiled, frame: Frame) -> Any:
-    """The ground term; a list that nests deeper than MAX_NESTING raises LimitReached."""
+    """The ground term; a list that nests deeper than MAX_NESTING raises TermRefused."""
     if isinstance(term, int):
         return frame[term]
     value = tuple(build(item, frame) for item in term.items)
     if term.tail is not None:
         tail = frame[term.tail]
         if not isinstance(tail, tuple):
-            raise LimitReached(f'{show(tail)} stands behind a dot but is no list')
+            raise TermRefused(f'{show(tail)} stands behind a dot but is no list')
         value += tail
     _refuse_deep(value)
     return value
@@ -109,7 +109,7 @@ def _refuse_deep(value: tuple[Any, ...]) -> None:
         layer = [part for whole in layer for part in whole if isinstance(part, tuple)]
         if not layer:
             return
-    raise LimitReached(f'a list nests deeper than {MAX_NESTING}: {shorten(_outline(value))}')
+    raise TermRefused(f'a list nests deeper than {MAX_NESTING}: {shorten(_outline(value))}')
 
 
 def _outline(value: object) -> str:

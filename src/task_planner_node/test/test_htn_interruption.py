@@ -1,0 +1,97 @@
+"""Enumerations that never end are ended, and what the relaxation cannot evaluate proves nothing."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+import pytest
+
+from task_planner_node.mission import MissionText
+from task_planner_node.oracle import Oracle
+from task_planner_node.outcomes import Options, Outcome, Result
+from task_planner_node.planner import Planner
+
+Plan = Callable[..., Result]
+FACTS = ''.join(f'(p x{i})' for i in range(60)) + '(zz q q)'
+JOIN = '(p ?a)(p ?b)(p ?c)(p ?d)(p ?e)(zz ?a ?e)'
+# Each is true for no binding, but that takes 60^5 or 2^60 attempts to see.
+ENDLESS = {
+    'operator': f'(:operator (!do) ({JOIN}) () ())(:method (t) () ((!do)))',
+    'method': f'(:method (t) ({JOIN}) ())',
+    'later branch': f'(:method (t) ({JOIN}) () () ())',
+    'negation': f'(:method (t) ((not ({JOIN}))) ())',
+    'axiom': f'(:- (ax ?a) ({JOIN}))(:method (t) ((ax ?x)) ())',
+    'disjunction': f'(:method (t) ({"(or (p x0) (p x1))" * 60} (zz x0 x0)) ())',
+    'pattern': '(:method (t) ((p ?a)(p ?b)(p ?c)(p ?d)(p (?a ?b ?c ?d))) ())',
+    'advice': f'(:operator (!do) ({JOIN}) () ())(:method (t) () (:unordered (!do) (!do)))',
+}
+
+
+@pytest.mark.parametrize('kind', ENDLESS)
+def test_the_time_budget_ends_an_enumeration_without_solutions(plan: Plan, kind: str) -> None:
+    problem = f'(defproblem x d ({FACTS}) ((t)))'
+    result = plan(f'(defdomain d ({ENDLESS[kind]}))', problem, None, Options(time_budget=0.2))
+    assert result.outcome == Outcome.LIMIT
+    assert 'the time budget of 0.2 s is spent' in result.explanation
+    assert result.statistics.planning_time < 0.7
+
+
+@pytest.mark.parametrize('kind', ENDLESS)
+def test_an_enumeration_without_solutions_is_cancelled_at_once(
+    no_motion_planner: Oracle, kind: str
+) -> None:
+    began = time.monotonic()
+    planner = Planner(no_motion_planner, Options(), lambda: time.monotonic() - began > 0.2)
+    domain = MissionText(text=f'(defdomain d ({ENDLESS[kind]}))')
+    result = planner.plan(domain, MissionText(text=f'(defproblem x d ({FACTS}) ((t)))'))
+    assert result.outcome == Outcome.CANCELLED
+    assert time.monotonic() - began < 0.7
+
+
+def test_a_proof_that_takes_too_long_is_given_up_and_the_plan_found(plan: Plan) -> None:
+    """The first branch decides; only the relaxation looks at the second."""
+    domain = f'(defdomain d ((:operator (!do) () () ())(:method (t) () ((!do)) ({JOIN}) ())))'
+    result = plan(domain, f'(defproblem x d ({FACTS}) ((t)))', None, Options(time_budget=10.0))
+    assert result.outcome == Outcome.SOLVED
+    assert [step.action for step in result.steps] == [('!do',)]
+
+
+REACH = '(:- (reach ?a ?b) ((edge ?a ?b)) ((edge ?a ?c) (reach ?c ?b)))'
+CYCLE = '(edge a b)(edge b a)'
+
+
+@pytest.mark.parametrize(
+    ('definitions', 'facts', 'task', 'plan_expected'),
+    [
+        (f'{REACH}(:operator (!go ?x) ((reach ?x ?y)) () ())', CYCLE, '(!go a)', [('!go', 'a')]),
+        (
+            f'{REACH}(:operator (!go ?x) ((reach ?x ?y)) () ())',
+            CYCLE,
+            '(:unordered (!go a) (!go b))',
+            [('!go', 'a'), ('!go', 'b')],
+        ),
+        (
+            '(:- (ax ?x) ((p ?x)) ((q)))(:operator (!go) ((ax ?y)) () ())',
+            '(p a)(q)',
+            '(!go)',
+            [('!go',)],
+        ),
+        (
+            '(:operator (!go) () () ())(:method (t ?x) () ((!go)) () ((t ((((((((((?x)))))))))))))',
+            '',
+            '(t a)',
+            [('!go',)],
+        ),
+    ],
+)
+def test_trouble_in_the_relaxation_is_no_trouble_of_the_mission(
+    plan: Plan,
+    definitions: str,
+    facts: str,
+    task: str,
+    plan_expected: list[tuple[str, ...]],
+) -> None:
+    result = plan(f'(defdomain d ({definitions}))', f'(defproblem x d ({facts}) ({task}))')
+    assert result.outcome == Outcome.SOLVED, result.explanation
+    assert [step.action for step in result.steps] == plan_expected
