@@ -65,7 +65,7 @@ def test_neighbours_with_room_between_them_are_in_one_component() -> None:
     assert seen > 100
 
 
-def test_cells_reachable_from_a_walled_in_place_stay_inside_the_wall() -> None:
+def test_a_walled_in_place_is_a_component_of_its_own() -> None:
     ring = [
         Polygon('south', ((300, 200), (500, 200), (500, 210), (300, 210))),
         Polygon('north', ((300, 390), (500, 390), (500, 400), (300, 400))),
@@ -73,14 +73,12 @@ def test_cells_reachable_from_a_walled_in_place_stay_inside_the_wall() -> None:
         Polygon('east', ((490, 200), (500, 200), (500, 400), (490, 400))),
     ]
     space = scene_of(*ring).free_space(RADIUS)
-    inside = space.cells_reachable_from(400, 300)
-    assert len(inside) > 0
-    assert inside.x_lo.min() > 305
-    assert inside.x_hi.max() < 495
-    assert inside.y_lo.min() > 205
-    assert inside.y_hi.max() < 395
-    assert len(space.cells_reachable_from(305, 205)) == 0
-    assert len(inside) < len(space.cells)
+    inside, outside = space.component_of(400, 300), space.component_of(100, 100)
+    assert inside not in (-1, outside)
+    assert space.component_of(320, 220) == inside
+    assert space.component_of(480, 380) == inside
+    assert space.component_of(305, 205) == -1
+    assert space.component_of(600, 300) == outside
     assert np.isinf(space.distance_from(400, 300).at(100, 100))
 
 

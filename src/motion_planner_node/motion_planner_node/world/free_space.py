@@ -132,11 +132,6 @@ class FreeSpace:
         inside = (dx >= 0) & (dx <= grid.columns) & (dy >= 0) & (dy <= grid.rows)
         return np.where(inside, labels, np.int32(-1))
 
-    def cells_reachable_from(self, x: float, y: float) -> Cells:
-        """The cells outside of which no motion from (x, y) [m] can ever get."""
-        component = self.component_of(x, y)
-        return Cells(self._grid, (self._labels == component) & self._grid.open)
-
     def distance_from(self, x: float, y: float) -> TravelField:
         """Estimated lengths [m] of motions between (x, y) and everywhere; kept for the next call."""
         key = (x, y)
