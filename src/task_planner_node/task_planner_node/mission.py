@@ -9,7 +9,7 @@ from typing import TypeVar
 from task_planner_node.errors import Diagnostic, GeometryUnavailable, MissionError, Severity
 from task_planner_node.language import check_mission, load_source, read_domain, read_problem
 from task_planner_node.language.model import Domain, Problem
-from task_planner_node.language.reader import ListNode, Node, Symbol
+from task_planner_node.language.reader import ListNode, Node, Symbol, first_word
 from task_planner_node.oracle import Oracle
 from task_planner_node.search.domain import CompiledDomain
 
@@ -83,22 +83,23 @@ def _has_errors(diagnostics: Sequence[Diagnostic]) -> bool:
     return any(diagnostic.severity == Severity.ERROR for diagnostic in diagnostics)
 
 
-def locate(problem: Problem, labels: Sequence[str]) -> Diagnostic | None:
+def locate(problem: Problem, labels: Sequence[str], name: str = '') -> Diagnostic | None:
     """Where the tasks of ``problem`` speak of ``labels``: the smallest list that holds the most of them.
 
-    A single label that occurs nowhere in the tasks is looked for in the initial state.
+    Among lists that hold equally many one that begins with ``name`` is preferred.  A label that occurs
+    nowhere in the tasks is looked for in the initial state.
     """
     wanted = set(labels)
-    best: tuple[int, int] = (0, 0)
+    best: tuple[int, bool, int] = (0, False, 0)
     place: Node | None = None
     for node, count in _lists(problem.tasks_node, wanted):
-        rank = (count, node.start - node.end)
+        rank = (count, first_word(node) == name.lower(), node.start - node.end)
         if count and (place is None or rank > best):
             best, place = rank, node
     if place is None:
         mentions = (s for fact in problem.facts for s in _symbols(fact.node) if s.text in wanted)
         place = next(mentions, None)
-    elif len(labels) == 1:
+    elif len(wanted) == 1:
         place = next((s for s in _symbols(place) if s.text in wanted), place)
     if place is None:
         return None

@@ -10,7 +10,6 @@ import time
 import traceback
 from collections import OrderedDict
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from types import FrameType
 
 import rclpy
@@ -32,9 +31,15 @@ from task_planner_node.conversions import (
     progress_to_message,
     result_to_message,
 )
+from task_planner_node.errors import Diagnostic
 from task_planner_node.motion_planner_client_node import MotionPlannerClient, RemoteOracle
 from task_planner_node.outcomes import Options, Outcome, Progress, Result
-from task_planner_node.parameters import PARAMETERS, Parameters, read_parameters
+from task_planner_node.parameters import (
+    PARAMETERS,
+    Parameters,
+    read_parameters,
+    read_time_budget,
+)
 from task_planner_node.planner import Planner
 
 NAME = 'task_planner_node'
@@ -132,7 +137,10 @@ class TaskPlannerNode(Node):
     def _plan(self, goal: ServerGoalHandle, should_stop: Callable[[], bool]) -> Result:
         request = goal.request
         parameters = self._settings
-        options = _options(request, parameters)
+        try:
+            options = _options(request, parameters)
+        except ValueError as error:
+            return Result(Outcome.INVALID, str(error), (Diagnostic(str(error)),))
 
         def report(progress: Progress) -> None:
             goal.publish_feedback(PlanTasks.Feedback(progress=progress_to_message(progress)))
@@ -173,18 +181,13 @@ class TaskPlannerNode(Node):
 
 def _options(request: PlanTasks.Goal, parameters: Parameters) -> Options:
     wanted = request.options
-    options = Options(
-        parameters.time_budget,
-        parameters.max_alternatives,
+    return Options(
+        read_time_budget(wanted.time_budget) or parameters.time_budget,
+        wanted.max_alternatives or parameters.max_alternatives,
         parameters.max_depth,
         wanted.optimise,
         wanted.use_advice,
     )
-    if 0 < wanted.time_budget < float('inf'):
-        options = replace(options, time_budget=wanted.time_budget)
-    if wanted.max_alternatives:
-        options = replace(options, max_alternatives=wanted.max_alternatives)
-    return options
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -64,6 +64,19 @@ def read_parameters(values: Mapping[str, object]) -> Parameters:
     )
 
 
+def read_time_budget(wanted: float) -> float:
+    """The wall clock [s] that a mission asks for, 0 when it leaves that to the node.
+
+    Raises ValueError with a sentence for what is no amount of time.
+    """
+    if math.isfinite(wanted) and wanted >= 0:
+        return wanted
+    raise ValueError(
+        f'options.time_budget has to be a finite number of seconds, not negative, and 0 for the '
+        f"node's default: not {wanted:g}"
+    )
+
+
 def _check(parameter: Parameter, value: object) -> Value:
     whole = isinstance(parameter.default, int)
     number = isinstance(value, (int, float)) and not isinstance(value, bool)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 from task_planner_node.errors import (
     Cancelled,
@@ -15,7 +15,7 @@ from task_planner_node.errors import (
 )
 from task_planner_node.explanation import explain_failure, explain_solution, place_refusal
 from task_planner_node.language.model import Domain, Problem, show
-from task_planner_node.mission import MissionText, check_and_compile, locate, read_mission
+from task_planner_node.mission import MissionText, check_and_compile, read_mission
 from task_planner_node.oracle import INVALID_CODES, Oracle, Token
 from task_planner_node.outcomes import Options, Outcome, Progress, Result
 from task_planner_node.search.engine import Search
@@ -85,12 +85,11 @@ class Planner:
     ) -> tuple[Outcome, str, tuple[Diagnostic, ...]]:
         self._say('loading', force=True)
         domain, problem = read_mission(domain_text, problem_text)
-        self._problem = problem
+        self._domain, self._problem = domain, problem
         self._say('checking', force=True)
         mission = check_and_compile(domain, problem, self._oracle)
         facts = [(fact.name, *fact.args) for fact in problem.facts]
         self._state = State(mission.domain.plan, facts, self._check)
-        self._domain = domain
         geometry = Geometry(
             self._oracle,
             self._statistics,
@@ -112,7 +111,7 @@ class Planner:
             return Outcome.SOLVED, explain_solution(search), mission.warnings
         outcome = Outcome.NO_PLAN if search.proven else Outcome.LIMIT
         reason = '' if search.proven else 'not everything could be tried: nothing is proven'
-        explanation, remarks = explain_failure(search, reason, self._locate)
+        explanation, remarks = explain_failure(search, reason, domain, problem)
         return outcome, explanation, (*remarks, *mission.warnings)
 
     def _refused(self, refused: RequestRefused) -> tuple[Outcome, str, tuple[Diagnostic, ...]]:
@@ -120,21 +119,21 @@ class Planner:
             task = show(refused.task)
             explanation = f'the motion planner cannot work on {task}: {refused.message}'
             return Outcome.FAILED, explanation, ()
-        diagnostic = place_refusal(refused, self._domain, self._problem)
+        domain, problem = self._domain, self._problem
+        diagnostic = place_refusal(refused, domain, problem) if domain and problem else None
+        if diagnostic is None:
+            return Outcome.INVALID, refused.message, ()
         return Outcome.INVALID, str(diagnostic), (diagnostic,)
 
     def _at_limit(self, reason: str) -> tuple[Outcome, str, tuple[Diagnostic, ...]]:
         """A limit ends the search: with the best plan so far when there is one."""
-        search = self._search
-        if search is None:
+        search, domain, problem = self._search, self._domain, self._problem
+        if search is None or domain is None or problem is None:
             return Outcome.LIMIT, reason, ()
         if search.best is not None:
             return Outcome.SOLVED, explain_solution(search), ()
-        explanation, remarks = explain_failure(search, reason, self._locate)
+        explanation, remarks = explain_failure(search, reason, domain, problem)
         return Outcome.LIMIT, explanation, remarks
-
-    def _locate(self, labels: Sequence[str]) -> Diagnostic | None:
-        return locate(self._problem, labels) if self._problem is not None else None
 
     def _check(self) -> None:
         if self._should_stop():

@@ -95,6 +95,9 @@ def test_a_bad_domain_is_refused_with_its_place(
         ('(defprobelm p d ((at home)) ((go work)))', 1, 1, 'did you mean defproblem?'),
         ('', 0, 0, 'no problem'),
         (f'{PROBLEM}\n{PROBLEM}', 2, 1, 'second'),
+        (f'{PROBLEM}\n(garbage)', 2, 1, '(garbage) is neither a problem nor a definition'),
+        (f'{PROBLEM} word', 1, 42, 'word is neither a problem nor a definition'),
+        (f'{PROBLEM}\n(:metod (x) () ())', 2, 1, 'did you mean :method?'),
     ],
 )
 def test_a_bad_problem_is_refused_with_its_place(

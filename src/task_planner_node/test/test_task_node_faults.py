@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import signal
 import subprocess
@@ -122,13 +123,15 @@ class MissionClient(Node):
         self.explain = self.create_client(Explain, 'explain')
         self.phases: list[str] = []
 
-    def send(self, mission: str, domain: SourceText, problem: SourceText) -> Any:
+    def send(
+        self, mission: str, domain: SourceText, problem: SourceText, time_budget: float = 0.0
+    ) -> Any:
         assert self.actions.wait_for_server(PATIENCE)
         goal = PlanTasks.Goal(
             mission=mission,
             domain=domain,
             problem=problem,
-            options=PlanningOptions(use_advice=True),
+            options=PlanningOptions(use_advice=True, time_budget=time_budget),
         )
         heard = self.actions.send_goal_async(
             goal, lambda message: self.phases.append(message.feedback.progress.phase)
@@ -233,6 +236,17 @@ def test_a_wrong_parameter_is_refused_with_a_sentence(planner: TaskPlannerNode) 
     assert 'from 0.1 to 86400 s' in answer.reason
     (answer,) = planner.set_parameters([Parameter('time_budget', value=50)])
     assert answer.successful
+
+
+@pytest.mark.parametrize('time_budget', [math.nan, math.inf, -math.inf, -1.0])
+def test_a_time_budget_that_is_none_is_refused(client: MissionClient, time_budget: float) -> None:
+    texts = ('(defdomain d ((:operator (!a) () () ())))', '(defproblem p d () ((!a)))')
+    domain, problem = (SourceText(text=text) for text in texts)
+    result = wait(client.send('m', domain, problem, time_budget).get_result_async()).result
+    assert result.outcome.value == Outcome.INVALID
+    assert 'options.time_budget has to be a finite number of seconds' in result.outcome.explanation
+    (diagnostic,) = result.outcome.diagnostics
+    assert f'not {time_budget:g}' in diagnostic.message
 
 
 def run_node(*arguments: str) -> subprocess.Popen[str]:

@@ -204,11 +204,11 @@ def _check_objects(domain: Domain, problem: Problem) -> Iterator[Diagnostic]:
     Only the goals ``(list (literal) ...)`` are looked at: elsewhere a new symbol may well be meant.
     """
     known = {symbol.text for fact in problem.facts for symbol in _symbols(fact.node)}
+    labels = {symbol.text for symbol in _arguments(fact.node for fact in problem.facts)}
     for head in _heads(domain):
         known.update(symbol.text for symbol in _symbols(head.node))
     for symbol in _arguments(goal.node for goal in problem.goals):
         if symbol.text not in known and symbol.text.lower() != 'nil':
             message = f'{symbol.text} occurs in no fact of the initial state'
-            yield _at(
-                problem.source, symbol, message + did_you_mean(symbol.text, known), Severity.WARNING
-            )
+            hint = did_you_mean(symbol.text, labels)
+            yield _at(problem.source, symbol, message + hint, Severity.WARNING)

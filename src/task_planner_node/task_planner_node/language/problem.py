@@ -15,7 +15,15 @@ from task_planner_node.language.expressions import (
     variables_of,
 )
 from task_planner_node.language.model import Atom, Problem
-from task_planner_node.language.reader import ListNode, Node, Symbol, first_word, read
+from task_planner_node.language.reader import (
+    DEFINITION_WORDS,
+    DOMAIN_WORDS,
+    ListNode,
+    Node,
+    Symbol,
+    first_word,
+    read,
+)
 from task_planner_node.language.source import Source
 from task_planner_node.language.suggestions import did_you_mean
 
@@ -34,9 +42,18 @@ def read_problem(source: Source) -> Problem:
             raise _missing(source, nodes)
         if len(problems) > 1:
             raise refuse(source, problems[1], 'a text holds one problem: this is the second')
+        for node in nodes:
+            if first_word(node) not in DEFINITION_WORDS | DOMAIN_WORDS:
+                raise refuse(source, node, _stray(source, node))
         return _read_defproblem(source, problems[0])
     except Refused as refused:
         raise MissionError([refused.diagnostic]) from refused
+
+
+def _stray(source: Source, node: Node) -> str:
+    hint = did_you_mean(first_word(node), DEFINITION_WORDS | DOMAIN_WORDS)
+    text = source.excerpt(node.start, node.end)
+    return f'{text} is neither a problem nor a definition of a domain{hint}'
 
 
 def _missing(source: Source, nodes: list[Node]) -> Exception:

@@ -13,12 +13,16 @@ MOST_RECORDED = 1000
 
 @dataclass(slots=True)
 class DeadEnd:
-    """A task that could not be done; ``objects`` are labels to look for in the problem."""
+    """A task that could not be done.
+
+    ``objects`` are labels to look for in the problem, ``unmet`` the literals that nothing can make true.
+    """
 
     task: Task
     reason: str
     objects: tuple[str, ...] = ()
     count: int = 0
+    unmet: tuple[str, ...] = ()
 
 
 @dataclass(slots=True)

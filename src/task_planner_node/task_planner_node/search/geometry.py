@@ -6,9 +6,9 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from task_planner_node.errors import Diagnostic
 from task_planner_node.language.model import show
 from task_planner_node.oracle import (
+    INVALID_CODES,
     Answer,
     Code,
     Oracle,
@@ -32,15 +32,22 @@ class Nogood:
 
 
 class RequestRefused(Exception):
-    """The motion planner answered a request for ``task`` with an error."""
+    """The motion planner answered a request for ``task`` with an error.
 
-    def __init__(
-        self, task: Task, code: int, message: str, diagnostics: Sequence[Diagnostic] = ()
-    ) -> None:
-        super().__init__(message)
+    ``column`` of ``text``, the ground preconditions, is where it found the error, from 1; 0 is nowhere.
+    """
+
+    def __init__(self, task: Task, text: str, answer: Answer) -> None:
+        super().__init__(answer.message)
         self.task = task
-        self.code = code
-        self.message = diagnostics[0].message if diagnostics else message
+        self.code = answer.code
+        self.message = answer.message
+        self.text = text
+        self.column = 0
+        if answer.diagnostics:
+            first = answer.diagnostics[0]
+            self.message = first.message
+            self.column = first.column if first.line == 1 else 0
 
 
 class Geometry:
@@ -107,7 +114,7 @@ class Geometry:
         self._statistics.exchanged(time.monotonic() - began, answer.time_spent)
         self._statistics.answers += 1
         if answer.status == Status.ERROR and answer.code != Code.NO_START:
-            raise RequestRefused(task, answer.code, answer.message, answer.diagnostics)
+            raise RequestRefused(task, text, answer)
         if answer.status == Status.FOUND:
             self._statistics.found += 1
         elif answer.status == Status.UNKNOWN:
@@ -136,9 +143,10 @@ class Geometry:
     def ranks(
         self, start: Token, lineage: Token, texts: Sequence[str], ask: bool
     ) -> dict[str, int]:
-        """Advised places of ground texts, 0 for the one to try first; asked for where one is not known.
+        """Advised places of ground texts, the lowest to try first; asked for where one is not known.
 
-        With ``ask`` False only what is known already counts.
+        With ``ask`` False only what is known already counts.  Texts that the motion planner cannot work on come
+        first of all, so that their fault is told at once.
         """
         known = self._ranks.setdefault(start, {})
         wanted = list(dict.fromkeys(texts))[:MOST_ADVISED]
@@ -158,4 +166,8 @@ class Geometry:
         known.clear()
         known.update({text: len(wanted) for text in wanted})
         known.update({wanted[index]: place for place, index in enumerate(order)})
+        faulty = [
+            t for t, c in zip(wanted, advice.candidates, strict=False) if c.code in INVALID_CODES
+        ]
+        known.update(dict.fromkeys(faulty, -1))
         return known

@@ -72,6 +72,7 @@ class _Relaxation:
         self._lineage = lineage
         self._done: set[Task] = set()
         self._blocked: dict[Task, Nogood] = {}
+        self._lost: dict[str, Task] = {}
         self._decompositions: dict[Task, dict[tuple[Task, ...], None]] = {}
         self._seen: dict[Task, None] = {}
         self._bindings = 0
@@ -106,6 +107,8 @@ class _Relaxation:
                 nogood = self._geometry.lasting_nogood(operator.text(frame), self._lineage)
                 if nogood is not None:
                     self._blocked.setdefault(task, nogood)
+                    for fact in operator.adds:
+                        self._lost.setdefault(show(fact(frame)), task)
                     continue
                 self.assigns = self.assigns or operator.assigns
             self._done.add(task)
@@ -158,11 +161,21 @@ class _Relaxation:
                 agenda.extend(reversed(fresh))
             else:
                 found.append(self._reason(task))
-        return found or [
-            DeadEnd(task, 'it decomposes into itself for ever', count=1)
-            for task in tasks
-            if task not in self._done
-        ]
+        roots = [reason for reason in found if not self._follows(reason, found)]
+        return (
+            roots
+            or found
+            or [
+                DeadEnd(task, 'it decomposes into itself for ever', count=1)
+                for task in tasks
+                if task not in self._done
+            ]
+        )
+
+    def _follows(self, reason: DeadEnd, others: list[DeadEnd]) -> bool:
+        """Whether all that it lacks are facts that other dead ends would have made true."""
+        blocked = {other.task for other in others if other.task in self._blocked}
+        return bool(reason.unmet) and all(self._lost.get(fact) in blocked for fact in reason.unmet)
 
     def _reason(self, task: Task) -> DeadEnd:
         nogood = self._blocked.get(task)
@@ -182,8 +195,8 @@ class _Relaxation:
                 ]
         if not conditions:
             return DeadEnd(task, no_definition_fits(task, operator is not None), count=1)
-        literals = ' or '.join(dict.fromkeys(conditions))
-        return DeadEnd(task, f'nothing can make {literals} true', count=1)
+        unmet = tuple(dict.fromkeys(conditions))
+        return DeadEnd(task, f'nothing can make {" or ".join(unmet)} true', count=1, unmet=unmet)
 
 
 def no_definition_fits(task: Task, primitive: bool) -> str:
