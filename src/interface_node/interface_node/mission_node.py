@@ -28,8 +28,10 @@ from interface_node.parameters import Parameters
 from interface_node.peers_node import Peers, Unavailable
 from interface_node.plan import Plan
 from interface_node.sources import SourceError, read_source
-from interface_node.waiting import Cancelled
+from interface_node.waiting import Cancelled, repeating
 
+#: [s] between two words on how a mission is getting on, at most.
+HEARTBEAT = 0.5
 #: What ``show`` is asked to publish: the plan, its message (None while there is no plan yet).
 Show = Callable[[Plan, 'GlobalPlan | None', Time], 'dict[str, object]']
 
@@ -67,7 +69,11 @@ class Mission:
         self._progress = PlanningProgress(best_length=inf)
 
     def run(self) -> PlanMission.Result:
-        """Plan, publish and record the mission."""
+        """Plan, publish and record the mission, and keep telling that it is being worked on."""
+        with repeating(HEARTBEAT, lambda: self._forward(self._progress)):
+            return self._plan()
+
+    def _plan(self) -> PlanMission.Result:
         self._report('loading')
         try:
             outcome = self._search(*self._read_sources())
@@ -154,8 +160,9 @@ class Mission:
         self._record('/mission/outcome', outcome)
         self._record('/mission/statistics', self._statistics)
         self._outputs.write(self._plain(message, outcome), picture=not cancelled)
-        for sentence in self._outputs.trouble:
-            outcome.explanation = '\n'.join(filter(None, (outcome.explanation, sentence)))
+        for remark in self._outputs.trouble:
+            outcome.explanation = '\n'.join(filter(None, (outcome.explanation, str(remark))))
+            outcome.diagnostics = [*outcome.diagnostics, diagnostic_to_message(remark)]
         return PlanMission.Result(
             outcome=outcome,
             plan=message,

@@ -69,7 +69,7 @@ class InterfaceNode(Node):
 
     def __init__(self, **options: object) -> None:
         super().__init__('interface_node', **options)
-        self._parameters = self._declare()
+        self._settings = self._declare()
         self._peers = Peers(self)
         latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._publish_plan = self.create_publisher(GlobalPlan, 'global_plan', latched).publish
@@ -135,7 +135,7 @@ class InterfaceNode(Node):
         return SetParametersResult(successful=True)
 
     def _adopt_parameters(self, _changed: list[Parameter]) -> None:
-        self._parameters = checked(
+        self._settings = checked(
             {spec.name: self.get_parameter(spec.name).value for spec in PARAMETERS}
         )
 
@@ -166,19 +166,21 @@ class InterfaceNode(Node):
             self._busy.release()
         if result.outcome.value == Outcome.CANCELLED and handle.is_cancel_requested:
             handle.canceled()
-        elif result.outcome.value in (Outcome.FAILED, Outcome.CANCELLED):
-            handle.abort()
-        else:
+        elif result.outcome.value == Outcome.SOLVED:
             handle.succeed()
+        else:
+            handle.abort()
         return result
 
     def _run(self, handle: ServerGoalHandle) -> PlanMission.Result:
         goal = handle.request
         mission_id = f'{goal.mission or "mission"}-{uuid.UUID(bytes=bytes(handle.goal_id.uuid))}'
         self.get_logger().info(f'mission {mission_id}')
-        parameters = self._parameters
+        parameters = self._settings
         outputs = Outputs(goal.output_directory or parameters.output_directory, mission_id)
         self._outputs = outputs
+        for remark in outputs.trouble:
+            self.get_logger().warning(f'mission {mission_id}: {remark}')
         try:
             result = Mission(
                 goal,
@@ -206,9 +208,9 @@ class InterfaceNode(Node):
     def _show(self, plan: Plan, message: GlobalPlan | None, stamp: Time) -> dict[str, object]:
         """Publish what there is to see; give it by the topic that it is recorded under."""
         shown: dict[str, object] = {}
-        spacing = self._parameters.path_spacing
+        spacing = self._settings.path_spacing
         if plan.world and message is None:
-            shown['/map'] = map_message(plan.world, self._parameters.map_resolution, stamp)
+            shown['/map'] = map_message(plan.world, self._settings.map_resolution, stamp)
             self._publish_map(shown['/map'])
         shown['/markers'] = marker_array(plan, spacing, stamp)
         self._publish_markers(shown['/markers'])

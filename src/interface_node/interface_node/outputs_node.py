@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from time import monotonic
 from typing import Any
@@ -12,7 +14,7 @@ from rclpy.serialization import deserialize_message
 
 from interface_node.files import Replacement, write_file
 from interface_node.picture import write_picture
-from interface_node.plan import Plan
+from interface_node.plan import Diagnostic, Plan
 from interface_node.plan_document import to_text
 from interface_node.recording.message_conversions import EVENTS, Recording
 from interface_node.waiting import TimedOut, wait_until
@@ -21,15 +23,15 @@ PLAN, PICTURE, RECORDING = 'plan.json', 'mission.png', 'mission.mcap'
 
 
 class Outputs:
-    """The files of one mission; where they cannot be written, ``trouble`` says so in sentences.
+    """The files of one mission; ``trouble`` says which cannot be written, and why.
 
     The recording grows on disk while the mission runs. All files appear whole or not at all, and
     what an earlier mission left under the same names is replaced or removed. An empty directory
-    means no files.
+    means no files. Trouble is an error where a file is missing, else a warning; its source is a path.
     """
 
     def __init__(self, directory: str, mission_id: str):
-        self.trouble: list[str] = []
+        self.trouble: list[Diagnostic] = []
         self.files: list[str] = []
         self._mission_id = mission_id
         self._lock = threading.Lock()
@@ -43,7 +45,8 @@ class Outputs:
                 self._file = Replacement(self._directory / RECORDING)
                 self._recording = Recording(self._file.file)
             except (OSError, ValueError) as error:
-                self._give_up(error)
+                self._complain(self._directory, error)
+                self._directory = None
 
     def record(self, topic: str, message: Any, time: int) -> None:
         """Add a message received at ``time`` [ns since 1970] to the recording."""
@@ -52,7 +55,8 @@ class Outputs:
                 try:
                     self._recording.write(topic, message, time)
                 except OSError as error:
-                    self._give_up(error)
+                    self._complain(self._path(RECORDING), error)
+                    self._drop_recording()
 
     def record_event(self, data: bytes) -> None:
         """Add a serialised planning event, if it belongs to this mission."""
@@ -79,45 +83,62 @@ class Outputs:
             )
         except TimedOut:
             self.trouble.append(
-                f'the recording is incomplete: it holds {self._requests} of {statistics.answers} '
-                f'answers and {self._advices} of {statistics.advices} advices'
+                Diagnostic(
+                    f'the recording is incomplete: it holds {self._requests} of '
+                    f'{statistics.answers} answers and {self._advices} of '
+                    f'{statistics.advices} advices',
+                    str(self._path(RECORDING)),
+                    warning=True,
+                )
             )
 
     def write(self, plan: Plan, *, picture: bool) -> None:
         """Complete the recording, and write the plan and, if wanted and possible, the picture."""
         if not self._directory:
             return
-        try:
-            with self._lock:
-                if self._recording and self._file:
-                    self._recording.finish()
-                    self._recording = None
-                    self._file.complete()
-                    self.files.append(str(self._directory / RECORDING))
-            self._write_file(PLAN, to_text(plan).encode())
-            if picture and plan.world:
-                self._write_file(PICTURE, write_picture(plan))
-            else:
-                (self._directory / PICTURE).unlink(missing_ok=True)
-        except OSError as error:
-            self._give_up(error)
+        with self._lock:
+            if self._recording and self._file:
+                self._leave(RECORDING, self._complete_recording)
+                self._drop_recording()
+        self._leave(PLAN, lambda path: write_file(path, to_text(plan).encode()))
+        if picture and plan.world:
+            self._leave(PICTURE, lambda path: write_file(path, write_picture(plan)))
+        else:
+            with suppress(OSError):
+                self._path(PICTURE).unlink(missing_ok=True)
 
     def abandon(self) -> None:
         """Leave no recording behind that was not completed."""
         with self._lock:
-            if self._recording and self._file:
-                self._recording = None
-                self._file.discard()
+            self._drop_recording()
 
-    def _write_file(self, name: str, data: bytes) -> None:
+    def _path(self, name: str) -> Path:
         assert self._directory is not None
-        path = self._directory / name
-        write_file(path, data)
-        self.files.append(str(path))
+        return self._directory / name
 
-    def _give_up(self, error: Exception) -> None:
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        self.trouble.append(f'nothing can be written to {self._directory}: {reason}')
-        self._recording = self._directory = None
-        if self._file:
+    def _leave(self, name: str, write: Callable[[Path], None]) -> None:
+        path = self._path(name)
+        try:
+            write(path)
+        except OSError as error:
+            self._complain(path, error)
+        else:
+            self.files.append(str(path))
+
+    def _complete_recording(self, _path: Path) -> None:
+        assert self._recording is not None
+        assert self._file is not None
+        self._recording.finish()
+        self._file.complete()
+
+    def _drop_recording(self) -> None:
+        if self._recording and self._file:
+            self._recording = None
             self._file.discard()
+
+    def _complain(self, path: Path, error: OSError | ValueError) -> None:
+        if isinstance(error, FileExistsError):
+            reason = 'it is no directory'
+        else:
+            reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
+        self.trouble.append(Diagnostic(f'cannot be written: {reason}', str(path)))

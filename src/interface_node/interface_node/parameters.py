@@ -72,7 +72,7 @@ class Parameters:
         maximum=1000.0,
     )
     peer_timeout: float = _parameter(
-        4.0,
+        3.0,
         'how long to wait for the motion planner and the task planner to answer at all',
         unit='s',
         minimum=0.1,

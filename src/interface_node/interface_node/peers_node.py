@@ -9,11 +9,13 @@ from typing import Any
 from action_msgs.msg import GoalStatus
 from geohtn_msgs.action import PlanTasks
 from geohtn_msgs.msg import Outcome
-from geohtn_msgs.srv import GetWorld, SetWorld
+from geohtn_msgs.srv import Explain, GetWorld, SetWorld
 from rclpy.action import ActionClient
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node
 
+from interface_node.pulse_node import Pulse
+from interface_node.starting import start_command
 from interface_node.waiting import Cancelled, TimedOut, wait_for, wait_until
 
 ShouldStop = Callable[[], bool]
@@ -32,9 +34,11 @@ class Peers:
     """
 
     def __init__(self, node: Node):
+        self._namespace = node.get_namespace().strip('/')
         group = ReentrantCallbackGroup()
         self._get_world = node.create_client(GetWorld, 'get_world', callback_group=group)
         self._set_world = node.create_client(SetWorld, 'set_world', callback_group=group)
+        self._explain = node.create_client(Explain, 'explain', callback_group=group)
         self._plan_tasks = ActionClient(node, PlanTasks, 'plan_tasks', callback_group=group)
 
     def check(self, timeout: float, should_stop: ShouldStop) -> None:
@@ -47,11 +51,11 @@ class Peers:
             wait_until(self._get_world.service_is_ready, deadline, should_stop)
             wait_for(self._get_world.call_async(GetWorld.Request()), deadline, should_stop)
         except TimedOut:
-            missing.append(_missing('motion_planner_node', motion_planner_there(), timeout))
+            missing.append(self._missing('motion_planner_node', motion_planner_there(), timeout))
         try:
             wait_until(self._plan_tasks.server_is_ready, deadline, should_stop)
         except TimedOut:
-            missing.append(_missing('task_planner_node', present=False, timeout=timeout))
+            missing.append(self._missing('task_planner_node', present=False, timeout=timeout))
         if missing:
             raise Unavailable('\n'.join(missing))
 
@@ -92,14 +96,18 @@ class Peers:
         within ``cancel_timeout`` [s]; else Cancelled is raised. Raises Unavailable when the goal is
         not accepted within ``accept_timeout`` [s], or the task planner vanishes.
         """
-        sent = self._plan_tasks.send_goal_async(
-            goal, feedback_callback=lambda message: on_feedback(message.feedback)
-        )
+        pulse = Pulse(self._explain)
+
+        def forward(message: Any) -> None:
+            pulse.hear()
+            on_feedback(message.feedback)
+
+        sent = self._plan_tasks.send_goal_async(goal, feedback_callback=forward)
         try:
             handle = wait_for(sent, monotonic() + accept_timeout, should_stop)
         except TimedOut:
             raise Unavailable(
-                _missing('task_planner_node', present=True, timeout=accept_timeout)
+                self._missing('task_planner_node', present=True, timeout=accept_timeout)
             ) from None
         except Cancelled:
             # Accepted after all, it must not go on searching for nobody.
@@ -111,7 +119,10 @@ class Peers:
             )
         result = handle.get_result_async()
         try:
-            self._follow(result, should_stop)
+            self._follow(result, pulse, should_stop)
+        except Unavailable:
+            handle.cancel_goal_async()
+            raise
         except Cancelled:
             handle.cancel_goal_async()
             try:
@@ -128,31 +139,36 @@ class Peers:
             )
         return answer.result
 
-    def _follow(self, result: Any, should_stop: ShouldStop) -> None:
-        while True:
-            try:
-                wait_for(result, monotonic() + LIVENESS_PERIOD, should_stop)
-            except TimedOut:
-                if self._plan_tasks.server_is_ready():
-                    continue
-                raise Unavailable(
-                    'task_planner_node vanished in the middle of the search; '
-                    'start it again: ros2 run task_planner_node task_planner_node'
-                ) from None
-            return
+    def _follow(self, result: Any, pulse: Pulse, should_stop: ShouldStop) -> None:
+        with pulse:
+            while True:
+                try:
+                    wait_for(result, monotonic() + LIVENESS_PERIOD, should_stop)
+                except TimedOut:
+                    if self._plan_tasks.server_is_ready() and pulse.beats():
+                        continue
+                    raise Unavailable(
+                        'task_planner_node vanished or hangs in the middle of the search; '
+                        f'start it again: {self._start_command("task_planner_node")}'
+                    ) from None
+                return
+
+    def _missing(self, name: str, present: bool, timeout: float) -> str:
+        start = self._start_command(name)
+        if present:
+            return (
+                f'{name} did not answer within {timeout:g} s: '
+                f'it is busy, or hangs, or was killed; start it anew: {start}'
+            )
+        return (
+            f'{name} is not running; start it: {start}, or end the others and start all: geohtn up'
+        )
+
+    def _start_command(self, name: str) -> str:
+        return start_command(name, self._namespace)
 
 
 def _cancel(sent: Any) -> None:
     handle = sent.result()
     if handle is not None and handle.accepted:
         handle.cancel_goal_async()
-
-
-def _missing(name: str, present: bool, timeout: float) -> str:
-    start = f'ros2 run {name} {name}'
-    if present:
-        return (
-            f'{name} did not answer within {timeout:g} s: '
-            f'it is busy, or hangs, or was killed; start it anew: {start}'
-        )
-    return f'{name} is not running; start it: {start}'

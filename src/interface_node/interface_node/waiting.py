@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from time import monotonic
 from typing import Any, Protocol
 
@@ -56,3 +57,21 @@ def wait_until(
         if left <= 0:
             raise TimedOut
         pause(min(left, PERIOD))
+
+
+@contextmanager
+def repeating(period: float, action: Callable[[], None]) -> Iterator[None]:
+    """Do ``action`` every ``period`` [s] in a thread of its own until the block is left."""
+    left = threading.Event()
+
+    def repeat() -> None:
+        while not left.wait(period):
+            action()
+
+    thread = threading.Thread(target=repeat, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        left.set()
+        thread.join()

@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import groupby
 from pathlib import Path
 from time import monotonic
 from typing import Any
@@ -22,6 +23,7 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 
 from interface_node.node import InterfaceNode
 from interface_node.plan import Plan
@@ -112,6 +114,11 @@ class ObedientTaskPlanner(Node):
         self._steps = steps
         self._events = self.create_publisher(msg.PlanningEvent, 'planning_events', 100)
         self.searching, self.cancelled = threading.Event(), threading.Event()
+        self.released = threading.Event()
+        self.released.set()
+        self.create_service(
+            srv.Explain, 'explain', self._explain, callback_group=ReentrantCallbackGroup()
+        )
         self._server = ActionServer(
             self,
             PlanTasks,
@@ -124,6 +131,10 @@ class ObedientTaskPlanner(Node):
     def destroy_node(self) -> None:
         self._server.destroy()
         super().destroy_node()
+
+    def _explain(self, _: Any, response: Any) -> Any:
+        self.released.wait(20)
+        return response
 
     def _execute(self, handle: Any) -> PlanTasks.Result:
         goal = handle.request
@@ -138,6 +149,11 @@ class ObedientTaskPlanner(Node):
             result.outcome.value = msg.Outcome.CANCELLED
             handle.canceled()
             return result
+        if goal.domain.text == 'hang':
+            self.released.clear()
+            self.released.wait(20)
+            handle.abort()
+            return result
         if goal.domain.text == 'break':
             raise RuntimeError('broken on purpose')
         result.steps = (
@@ -145,7 +161,7 @@ class ObedientTaskPlanner(Node):
         )
         # Of another mission, and therefore not to be recorded.
         self._exchange('other')
-        for _ in range(3):
+        for _ in range(0 if goal.domain.text == 'silent' else 3):
             self._exchange(goal.mission)
         result.statistics.answers = 3
         result.statistics.planning_time = 0.5
@@ -243,11 +259,8 @@ def test_a_mission_is_planned_published_and_written(
     assert len({event.request[0].mission for event in events}) == 1
     topics = {found.topic for found in recorded}
     assert topics >= {'/global_plan', '/path', '/map', '/markers', '/mission/outcome'}
-    assert [p for p in team.client.feedback if p != 'searching'] == [
-        'loading',
-        'checking',
-        'writing',
-    ]
+    phases = [p for p, _ in groupby(team.client.feedback) if p != 'searching']
+    assert [p for p, _ in groupby(phases)] == ['loading', 'checking', 'writing']
 
 
 def test_a_recording_is_replayed_and_differences_are_told(
@@ -278,18 +291,22 @@ def test_without_a_motion_planner_there_is_no_replay(
 
 def test_missing_planners_are_named_within_five_seconds(client: Client, tmp_path: Path) -> None:
     started = monotonic()
-    result = client.plan(output_directory=str(tmp_path)).result
+    answer = client.plan(output_directory=str(tmp_path))
     assert monotonic() - started < 5.0
+    assert answer.status == GoalStatus.STATUS_ABORTED
+    result = answer.result
     assert result.outcome.value == msg.Outcome.UNAVAILABLE
     for name in ('motion_planner_node', 'task_planner_node'):
-        assert f'ros2 run {name} {name}' in result.outcome.explanation
+        assert f'{name} is not running; start it: ' in result.outcome.explanation
     document = json.loads((tmp_path / 'plan.json').read_text(encoding='utf-8'))
     assert document['outcome'] == 'UNAVAILABLE'
 
 
 def test_bad_input_is_told_and_the_next_mission_is_planned(team: Team, tmp_path: Path) -> None:
     missing = str(tmp_path / 'none.lisp')
-    result = team.client.plan(problem=msg.SourceText(path=missing)).result
+    answer = team.client.plan(problem=msg.SourceText(path=missing))
+    assert answer.status == GoalStatus.STATUS_ABORTED
+    result = answer.result
     assert result.outcome.value == msg.Outcome.INVALID
     assert [remark.source for remark in result.outcome.diagnostics] == [missing]
     result = team.client.plan(world=msg.SourceText(path='w.yaml', text='refuse')).result
@@ -313,15 +330,76 @@ def test_steps_that_do_not_fit_together_are_no_plan(team: Team, tmp_path: Path) 
     assert answer.result.plan.steps == []
 
 
+@pytest.mark.parametrize(
+    ('where', 'reason'),
+    [('file/out', 'Not a directory'), ('file', 'it is no directory')],
+)
 def test_where_nothing_can_be_written_the_plan_is_returned_all_the_same(
-    team: Team, tmp_path: Path
+    team: Team, tmp_path: Path, where: str, reason: str
 ) -> None:
     (tmp_path / 'file').write_bytes(b'')
-    result = team.client.plan(output_directory=str(tmp_path / 'file' / 'out')).result
+    answer = team.client.plan(output_directory=str(tmp_path / where))
+    result = answer.result
+    assert answer.status == GoalStatus.STATUS_SUCCEEDED
     assert result.outcome.value == msg.Outcome.SOLVED
     assert result.plan.steps
     assert result.files == []
-    assert 'nothing can be written' in result.outcome.explanation
+    (remark,) = result.outcome.diagnostics
+    assert remark.severity == msg.Diagnostic.ERROR
+    assert (remark.source, remark.message) == (
+        str(tmp_path / where),
+        f'cannot be written: {reason}',
+    )
+    assert str(tmp_path / where) in result.outcome.explanation
+
+
+@pytest.mark.parametrize('name', ['plan.json', 'mission.png', 'mission.mcap'])
+def test_a_file_that_cannot_be_written_does_not_hinder_the_others(
+    team: Team, tmp_path: Path, name: str
+) -> None:
+    (tmp_path / name).mkdir()
+    result = team.client.plan(output_directory=str(tmp_path)).result
+    names = {'plan.json', 'mission.png', 'mission.mcap'}
+    assert {Path(file).name for file in result.files} == names - {name}
+    assert {file.name for file in tmp_path.iterdir()} == names
+    (remark,) = result.outcome.diagnostics
+    assert remark.source == str(tmp_path / name)
+    assert remark.message == 'cannot be written: Is a directory'
+
+
+def test_a_recording_without_all_events_is_a_warning(team: Team, tmp_path: Path) -> None:
+    team.node.set_parameters([Parameter('recording_timeout', value=0.1)])
+    result = team.client.plan('silent', output_directory=str(tmp_path)).result
+    assert result.outcome.value == msg.Outcome.SOLVED
+    (remark,) = result.outcome.diagnostics
+    assert remark.severity == msg.Diagnostic.WARNING
+    assert 'it holds 0 of 3 answers' in remark.message
+    assert len(result.files) == 3
+
+
+def test_a_parameter_is_changed_while_the_node_runs(interface: InterfaceNode) -> None:
+    (refused,) = interface.set_parameters([Parameter('path_spacing', value=-1.0)])
+    assert 'path_spacing must be a number from' in refused.reason
+    (accepted,) = interface.set_parameters([Parameter('path_spacing', value=2.5)])
+    assert accepted.successful
+    assert interface.get_parameter('path_spacing').value == 2.5
+
+
+def test_a_mission_is_told_of_twice_a_second_while_nothing_else_happens(team: Team) -> None:
+    handle = team.client.send('search')
+    assert team.task_planner.searching.wait(10)
+    wait_until(lambda: len(team.client.feedback) >= 7, monotonic() + 5, never)
+    handle.cancel_goal_async()
+    wait_for(handle.get_result_async(), monotonic() + 10, never)
+
+
+def test_a_task_planner_that_hangs_is_given_up(team: Team) -> None:
+    started = monotonic()
+    answer = team.client.plan('hang')
+    team.task_planner.released.set()
+    assert answer.result.outcome.value == msg.Outcome.UNAVAILABLE
+    assert 'task_planner_node vanished or hangs' in answer.result.outcome.explanation
+    assert monotonic() - started < 6.0
 
 
 def test_a_mission_is_cancelled_in_mid_search_and_only_one_runs_at_a_time(team: Team) -> None:
