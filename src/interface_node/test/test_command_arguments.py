@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from interface_node.command_line.arguments import goal_of, mission_of, node_settings_of
-from interface_node.command_line.main import parser
+from interface_node.command_line.dispatch import parser
 
 VERBS = ('run', 'up', 'plan', 'replay', 'missions')
 

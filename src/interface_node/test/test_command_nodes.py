@@ -153,9 +153,20 @@ def test_logs_that_cannot_be_written_are_the_inputs_fault(install: Install, tmp_
     assert caught.value.exit_code == 2
 
 
-def test_advice_on_starting_nodes_is_a_command() -> None:
-    assert '`ros2 run a a --ros-args -r __ns:=/team`' in how_to_start(['a'], 'team')
-    assert '`ros2 run a a`' in how_to_start(['a'], '')
+def test_advice_on_starting_nodes_is_a_command_of_this_machine(
+    install: Install, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    install('a_node', SLEEP)
+    monkeypatch.setenv('PATH', str(tmp_path))
+    executable = tmp_path / 'lib' / 'a_node' / 'a_node'
+    assert f'`{executable} --ros-args -r __ns:=/team`' in how_to_start(['a_node'], 'team')
+    assert f'`{executable}`' in how_to_start(['a_node'], '')
+    assert '`ros2 run elsewhere elsewhere`' in how_to_start(['elsewhere'], '')
+    (tmp_path / 'ros2').write_text('#!/bin/sh')
+    (tmp_path / 'ros2').chmod(0o755)
+    assert '`ros2 run a_node a_node --ros-args -r __ns:=/team`' in how_to_start(['a_node'], 'team')
+    assert '`ros2 run a_node a_node`' in how_to_start(['a_node'], '')
+    assert 'or end the others and start all with `geohtn up`' in how_to_start(['a_node'], '')
     assert '`geohtn up --namespace team`' in how_to_start(['a', 'b'], 'team')
     assert '`geohtn up`' in how_to_start(['a', 'b'], '')
 

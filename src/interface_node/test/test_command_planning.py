@@ -34,10 +34,13 @@ class FakeClient:
         polls_to_appear: int = 0,
         polls_to_plan: int = 2,
         polls_to_vanish: float = inf,
+        polls_to_fall_silent: float = inf,
     ):
         self.progress = Progress('searching')
         self.result: MissionResult | None = None
         self.cancelled = 0
+        self.heard = 0
+        self._to_silence = polls_to_fall_silent
         self._outcome = result
         self._to_appear = polls_to_appear
         self._to_plan = polls_to_plan
@@ -56,6 +59,8 @@ class FakeClient:
 
     def wait(self, seconds: float) -> bool:
         assert seconds <= 1.0
+        self._to_silence -= 1
+        self.heard += self._to_silence >= 0
         self._to_plan -= 1
         if self._to_plan > 0:
             return False
@@ -120,9 +125,22 @@ def test_an_interface_that_vanishes_ends_the_waiting() -> None:
     assert caught.value.exit_code == 3
 
 
-def test_a_refused_mission_is_an_error() -> None:
-    with pytest.raises(CommandError, match='refused'):
+def test_an_interface_that_falls_silent_ends_the_waiting() -> None:
+    client = FakeClient(polls_to_plan=10**9, polls_to_fall_silent=3)
+    with pytest.raises(CommandError, match='interface_node no longer answers') as caught:
+        plan_mission(client, GOAL, quiet(), nothing)
+    assert caught.value.exit_code == 3
+    assert client.cancelled == 1
+
+
+def test_an_interface_that_tells_how_it_goes_is_waited_for() -> None:
+    assert plan_mission(FakeClient(polls_to_plan=1000), GOAL, quiet(), nothing) is SOLVED
+
+
+def test_a_refused_mission_is_told_why_and_what_to_do() -> None:
+    with pytest.raises(CommandError, match='another mission is being planned: wait') as caught:
         plan_mission(FakeClient(result=None), GOAL, quiet(), nothing)
+    assert caught.value.exit_code == 1
 
 
 def dying(after: int) -> Callable[[], None]:
@@ -142,6 +160,19 @@ def test_a_plan_goes_to_standard_output() -> None:
     assert out.getvalue().startswith('SOLUTION PLAN:\n1:(!go rover0)\n\n')
     assert out.getvalue().endswith('a.json\n')
     assert err.getvalue() == ''
+
+
+@pytest.mark.parametrize(('warning', 'code'), [(False, 1), (True, 0)])
+def test_a_file_that_could_not_be_written_is_told_beside_the_plan(
+    *, warning: bool, code: int
+) -> None:
+    remark = Diagnostic('cannot be written: Not a directory', '/abs/out', warning=warning)
+    plan = Plan('survey', 'SOLVED', str(remark), (remark,), steps=(Step(('!go', 'rover0')),))
+    out, err = io.StringIO(), io.StringIO()
+    assert report(MissionResult(plan), GOAL, Console(out, err, {})) == code
+    assert out.getvalue().startswith('SOLUTION PLAN:\n1:(!go rover0)\n\n')
+    severity = 'warning' if warning else 'error'
+    assert err.getvalue() == f'/abs/out: {severity}: cannot be written: Not a directory\n'
 
 
 def test_why_there_is_no_plan_goes_to_standard_error() -> None:

@@ -19,7 +19,8 @@ class ExitCode(IntEnum):
 TABLE = """\
 exit codes:
   0    solved, or done
-  1    no plan within the limits, a replay that differs, or a fault
+  1    no plan within the limits, a file that could not be written, another mission
+       in the way, a replay that differs, or a fault
   2    the input is at fault, or it is proven that there is no plan
   3    a node is not running
   130  stopped by Ctrl-C (143 by SIGTERM, 129 by SIGHUP)

@@ -36,7 +36,7 @@ class MissionClient:
     def __init__(self, namespace: str):
         self.progress = Progress()
         self.result: MissionResult | None = None
-        self.refused = False
+        self.heard = 0
         self._finished = Event()
         self._goal: MissionGoal | None = None
         self._handle: Any = None
@@ -118,6 +118,7 @@ class MissionClient:
 
     def _on_feedback(self, message: Any) -> None:
         progress = message.feedback.progress
+        self.heard += 1
         self.progress = Progress(
             progress.phase,
             progress.goals_reached,
@@ -130,8 +131,8 @@ class MissionClient:
 
     def _on_accepted(self, future: Any) -> None:
         self._handle = future.result()
+        self.heard += 1
         if not self._handle.accepted:
-            self.refused = True
             self._finished.set()
             return
         self._handle.get_result_async().add_done_callback(self._on_result)

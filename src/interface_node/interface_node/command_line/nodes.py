@@ -12,6 +12,7 @@ from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 
 from interface_node.command_line.errors import CommandError
 from interface_node.command_line.exit_codes import ExitCode
+from interface_node.starting import start_command
 
 #: In the order of starting; package and executable have the name of the node.
 NODES = ('motion_planner_node', 'task_planner_node', 'interface_node')
@@ -57,10 +58,11 @@ def node_environment(environment: Mapping[str, str]) -> dict[str, str]:
 
 def how_to_start(missing: Sequence[str], namespace: str) -> str:
     """Advice for somebody to whom these nodes are missing."""
+    everything = f'geohtn up{f" --namespace {namespace}" if namespace else ""}'
     if len(missing) == 1:
-        remap = f' --ros-args -r __ns:=/{namespace}' if namespace else ''
-        return f'start it with `ros2 run {missing[0]} {missing[0]}{remap}`'
-    return f'start the nodes with `geohtn up{f" --namespace {namespace}" if namespace else ""}`'
+        single = f'start it with `{start_command(missing[0], namespace)}`'
+        return f'{single}, or end the others and start all with `{everything}`'
+    return f'start the nodes with `{everything}`'
 
 
 def _executable(node: str) -> Path:

@@ -22,6 +22,9 @@ from interface_node.plan import Plan
 START_PATIENCE = 60.0
 _POLL = 0.05
 _CANCEL_PATIENCE = 0.9
+#: Looks without news after which the interface node, which tells how it goes twice a second, is
+#: given up. They are counted, so that a command that was suspended does not blame the node.
+_SILENT_LOOKS = 70
 
 
 class Client(Protocol):
@@ -29,6 +32,7 @@ class Client(Protocol):
 
     progress: Progress
     result: MissionResult | None
+    heard: int  # messages from the interface node
 
     def missing(self) -> tuple[str, ...]:
         """Names of the nodes that are not to be seen."""
@@ -82,6 +86,7 @@ def plan_mission(
     """
     client.start(goal)
     phase = ''
+    heard = silent = 0
     try:
         while not client.wait(_POLL):
             progress = client.progress
@@ -90,6 +95,12 @@ def plan_mission(
             check()
             if 'interface_node' in client.missing():
                 raise CommandError('interface_node went away while it planned', ExitCode.NO_NODE)
+            silent = silent + 1 if client.heard == heard else 0
+            heard = client.heard
+            if silent >= _SILENT_LOOKS:
+                raise CommandError(
+                    'interface_node no longer answers: it hangs, or was killed', ExitCode.NO_NODE
+                )
     except BaseException:
         client.cancel()
         client.wait(_CANCEL_PATIENCE)
@@ -97,12 +108,19 @@ def plan_mission(
     finally:
         console.end_status()
     if client.result is None:
-        raise CommandError('interface_node refused the mission', ExitCode.FAILED)
+        raise CommandError(
+            'another mission is being planned: wait for it, or cancel it with Ctrl-C where it was '
+            'started; a mission whose client was killed ends with its time budget',
+            ExitCode.FAILED,
+        )
     return client.result
 
 
 def report(result: MissionResult, goal: MissionGoal, console: Console) -> ExitCode:
-    """Write what came of a mission: the plan to ``out``, or to ``err`` why there is none."""
+    """Write what came of a mission: the plan to ``out``, or to ``err`` why there is none.
+
+    A plan whose files could not all be written counts as FAILED.
+    """
     plan = result.plan
     write_diagnostics(console, plan.diagnostics, goal.mission.sources.values())
     if plan.outcome != 'SOLVED':
@@ -124,7 +142,8 @@ def report(result: MissionResult, goal: MissionGoal, console: Console) -> ExitCo
         console.print('')
     for line in totals(result):
         console.print(line)
-    return ExitCode.DONE
+    complete = all(remark.warning for remark in plan.diagnostics)
+    return ExitCode.DONE if complete else ExitCode.FAILED
 
 
 def checking(interrupts: Interrupts, *checks: Callable[[], None]) -> Callable[[], None]:
