@@ -95,3 +95,19 @@ def test_trouble_in_the_relaxation_is_no_trouble_of_the_mission(
     result = plan(f'(defdomain d ({definitions}))', f'(defproblem x d ({facts}) ({task}))')
     assert result.outcome == Outcome.SOLVED, result.explanation
     assert [step.action for step in result.steps] == plan_expected
+
+
+def test_as_many_facts_as_a_text_may_hold_are_loaded_at_once(plan: Plan) -> None:
+    facts = ''.join(f'(p {i})' for i in range(100_000))
+    domain = '(defdomain d ((:operator (!do ?x) ((p ?x)(p ?y)) () ())))'
+    result = plan(domain, f'(defproblem x d ({facts}) ((!do 99999)))')
+    assert result.outcome == Outcome.SOLVED
+    assert result.statistics.planning_time < 10.0
+
+
+def test_as_many_methods_as_a_text_may_hold_are_checked_at_once(plan: Plan) -> None:
+    methods = ''.join(f'(:method (t{i}) ((p)) ((t{i + 1})) () ())' for i in range(5000))
+    domain = f'(defdomain d ({methods} (:method (t5000) () ())))'
+    result = plan(domain, '(defproblem x d () ((t0)))')
+    assert result.outcome == Outcome.SOLVED
+    assert result.statistics.planning_time < 10.0

@@ -96,23 +96,30 @@ def _unbound_in_text(
 
 
 def _check_methods(domain: Domain) -> Iterator[Diagnostic]:
+    arities = _arities(domain)
     for method in domain.methods:
         head = set(variables_of(method.head))
         for branch in method.branches:
             bound = head | bound_by(branch.condition)
             for task in tasks_of(branch.tasks):
                 yield from _unbound(domain.source, task, bound, 'a task')
-            yield from _undefined(domain, domain.source, branch.tasks)
+            yield from _undefined(arities, domain.source, branch.tasks)
 
 
 def _heads(domain: Domain) -> list[Atom]:
     return [o.head for o in domain.operators] + [m.head for m in domain.methods]
 
 
-def _undefined(domain: Domain, source: Source, network: TaskNetwork) -> Iterator[Diagnostic]:
+def _arities(domain: Domain) -> dict[str, set[int]]:
     arities: dict[str, set[int]] = {}
     for head in _heads(domain):
         arities.setdefault(head.name, set()).add(len(head.args))
+    return arities
+
+
+def _undefined(
+    arities: dict[str, set[int]], source: Source, network: TaskNetwork
+) -> Iterator[Diagnostic]:
     for task in tasks_of(network):
         kind = 'operator' if task.name.startswith('!') else 'method'
         if task.name not in arities:
@@ -125,7 +132,7 @@ def _undefined(domain: Domain, source: Source, network: TaskNetwork) -> Iterator
 
 
 def _check_tasks(domain: Domain, problem: Problem) -> Iterator[Diagnostic]:
-    yield from _undefined(domain, problem.source, problem.tasks)
+    yield from _undefined(_arities(domain), problem.source, problem.tasks)
 
 
 def _conditions(domain: Domain) -> Iterator[Condition]:

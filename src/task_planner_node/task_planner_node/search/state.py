@@ -61,16 +61,19 @@ class State:
         self.next_look = LOOK_INTERVAL
         self.most_work = inf
         self._watch = watch
-        self.facts: set[Fact] = set()
-        self.buckets: list[dict[Any, Bucket]] = [{} for _ in range(len(plan))]
+        ordered = dict.fromkeys(facts)
+        self.facts: set[Fact] = set(ordered)
         self.relaxed = False
         self.changed: set[Fact] = set()
         self._by_predicate = plan.by_predicate()
         self._trail: list[tuple[Fact, bool, list[tuple[dict[Any, Bucket], Any, Bucket]]]] = []
-        for fact in facts:
-            self.add(fact)
-        self._trail.clear()
-        self.changed.clear()
+        initial: list[dict[Any, list[Fact]]] = [{} for _ in range(len(plan))]
+        for fact in ordered:
+            for number, key_of in self._by_predicate.get((fact[0], len(fact)), ()):
+                initial[number].setdefault(key_of(fact), []).append(fact)
+        self.buckets: list[dict[Any, Bucket]] = [
+            {key: tuple(bucket) for key, bucket in buckets.items()} for buckets in initial
+        ]
 
     def add(self, fact: Fact) -> bool:
         """Make ``fact`` true; False when it already was."""
