@@ -1,6 +1,7 @@
 """The library of functions that geometric constraints are made of (Table 2 of the paper)."""
 
 from motion_planner_node.functions.dual import Array, Dual
+from motion_planner_node.functions.field import Field
 from motion_planner_node.functions.function import COMPONENTS, Function, Kind
 from motion_planner_node.functions.interval import Interval
 from motion_planner_node.functions.library import FUNCTIONS
@@ -11,6 +12,7 @@ __all__ = [
     'FUNCTIONS',
     'Array',
     'Dual',
+    'Field',
     'Function',
     'Interval',
     'Kind',

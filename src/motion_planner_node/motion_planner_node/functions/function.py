@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
-from motion_planner_node.functions.dual import Dual
-
 
 class Kind(Enum):
     """What an argument or a result is; the value is its name in messages."""
@@ -42,12 +40,8 @@ class Function:
     symmetric: bool = False
 
     def truncated(self, *arguments: Any) -> Any:
-        """``value`` of duals with only the derivatives of ``derived_codes``, as in Table 2."""
+        """``value`` with only the derivatives of ``derived_codes``, as in Table 2."""
         result = self.value(*arguments)
-        if result.gradient is None or self.derived_codes == COMPONENTS:
+        if self.derived_codes == COMPONENTS:
             return result
-        gradient = result.gradient.copy()
-        for index, component in enumerate(COMPONENTS):
-            if component not in self.derived_codes:
-                gradient[index] = 0.0
-        return Dual(result.value, gradient)
+        return result.restricted(tuple(name in self.derived_codes for name in COMPONENTS))

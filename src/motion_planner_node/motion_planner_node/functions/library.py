@@ -19,7 +19,7 @@ def relative_angle(agent: Place[S], target: Place[S]) -> S:
     Its cosine and sine are the paper's f1 and f2: pi/2 puts the target on the agent's right. It is
     undefined where the agent stands on the target.
     """
-    return agent.heading - (target.y - agent.y).arctan2(target.x - agent.x)
+    return agent.heading - (target.y - agent.y).direction(target.x - agent.x)
 
 
 def degrees(angle: S) -> S:
