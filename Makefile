@@ -6,7 +6,7 @@ TYPECHECKS := mypy $(foreach file,$(wildcard src/*/test/conftest.py),'mypy $(fil
 
 .DEFAULT_GOAL := help
 .PHONY: help setup mission test format lint typecheck experiments experiment-mission \
-  experiment-constraints experiment-packages clean
+  experiment-constraints experiment-packages fuzz clean
 
 help: ## List the targets
 	@echo 'make TARGET [PYTHON=python3.12]'
@@ -48,6 +48,9 @@ experiment-constraints: experiment-packages ## Measure the solver of constraints
 
 experiment-packages: setup
 	@$(RUN) python -m pip install --quiet --disable-pip-version-check --no-deps -r ros2_ws/requirements/experiments.txt
+
+fuzz: setup ## Read 100,000 broken texts of geometric preconditions (some minutes)
+	@$(RUN) python -m experiments.fuzz --texts 100000
 
 clean: ## Remove what the set-up made and all caches, but not out/
 	rm -rf .venv ros2_ws/build ros2_ws/install ros2_ws/log .mypy_cache .pytest_cache .ruff_cache .hypothesis
