@@ -128,9 +128,7 @@ def test_a_contradiction_names_both_constraints() -> None:
     text = VARIABLE + '\n(distance(?r, ?o) >= 60)\n (distance(?r, ?o) <= 50)'
     (found,) = check(parse(text), None)
     assert (found.line, found.column) == (3, 3)
-    assert found.message == (
-        'distance(?r, ?o) >= 60 and distance(?r, ?o) <= 50 exclude each other'
-    )
+    assert found.message == ('distance(?r, ?o) >= 60 and distance(?r, ?o) <= 50 exclude each other')
 
 
 @pytest.mark.parametrize(

@@ -2,10 +2,12 @@
 
 from motion_planner_node.functions.dual import Array, Dual
 from motion_planner_node.functions.field import Field
-from motion_planner_node.functions.function import COMPONENTS, Function, Kind
+from motion_planner_node.functions.function import Function, Kind
 from motion_planner_node.functions.interval import Interval
 from motion_planner_node.functions.library import FUNCTIONS
 from motion_planner_node.functions.scalar import Place, Scalar
+from motion_planner_node.functions.surroundings import Surroundings, surroundings_of
+from motion_planner_node.robots.motion import COMPONENTS
 
 __all__ = [
     'COMPONENTS',
@@ -18,4 +20,6 @@ __all__ = [
     'Kind',
     'Place',
     'Scalar',
+    'Surroundings',
+    'surroundings_of',
 ]

@@ -70,7 +70,7 @@ class Interval:
         """``factor`` times the number."""
         return self * Interval.constant(factor)
 
-    def restricted(self, kept: Sequence[bool]) -> Interval:
+    def restricted(self, _kept: Sequence[bool]) -> Interval:
         """The same bounds: intervals carry no derivatives."""
         return self
 

@@ -10,6 +10,7 @@ from motion_planner_node.language.parser import (
 from motion_planner_node.language.printer import number_to_text, to_text
 from motion_planner_node.language.syntax import (
     Command,
+    Condition,
     Constraint,
     Expression,
     Preconditions,
@@ -21,6 +22,7 @@ __all__ = [
     'MAXIMUM_ITEMS',
     'MAXIMUM_SIZE',
     'Command',
+    'Condition',
     'Constraint',
     'Expression',
     'Preconditions',

@@ -13,8 +13,10 @@ from motion_planner_node.codes import Code
 from motion_planner_node.errors import Diagnostic, MotionPlannerError
 from motion_planner_node.language.printer import to_text
 from motion_planner_node.language.syntax import (
+    COMMANDS,
     Call,
     Command,
+    Condition,
     Constant,
     Constraint,
     Expression,
@@ -124,8 +126,10 @@ class _Builder:
             return node
         if not isinstance(node, Call):
             _not_too_deep(node)
-            message = 'expected a comparator (< <= > >= =), or a command such as setProperty'
+            message = 'expected a comparator (< <= > >= = !=), or a command such as setProperty'
             raise _error(message, node, to_text(node))
+        if node.name not in COMMANDS:
+            return _not_too_deep(Condition(node, line=node.line, column=node.column))
         command = Command(node.name, node.arguments, line=node.line, column=node.column)
         return _not_too_deep(command)
 
