@@ -15,7 +15,12 @@ from motion_planner_node.parameters import Parameters
 from motion_planner_node.paths import plan_path
 from motion_planner_node.planning.ground import Ground
 from motion_planner_node.planning.problem import Problem
-from motion_planner_node.planning.proofs import Impossible, hopeful_cells, walled_off
+from motion_planner_node.planning.proofs import (
+    Impossible,
+    hopeful_cells,
+    no_attitude,
+    walled_off,
+)
 from motion_planner_node.planning.tried import Tried
 from motion_planner_node.robots.car import end_of
 from motion_planner_node.robots.motion import Attitude, Motion
@@ -95,8 +100,8 @@ class Stream:
     def _generate(self) -> Iterator[Found]:
         for round_number in range(self._parameters.rounds):
             self._add_candidates(round_number)
-            if not self._candidates and not self._found:
-                self.proof = self.proof or self._prove()
+            if round_number == 0 and not self._candidates:
+                self.proof = self._prove()
                 if self.proof:
                     return
             planned: list[_Candidate] = []
@@ -120,7 +125,8 @@ class Stream:
 
     def _prove(self) -> Impossible | None:
         hopeful = hopeful_cells(self._problem, self._ground)
-        return walled_off(self._problem, self._ground, hopeful)
+        proof = walled_off(self._problem, self._ground, hopeful)
+        return proof or no_attitude(self._problem, self._ground)
 
     def _answer(self, candidate: _Candidate) -> Found:
         assert candidate.motion is not None
@@ -138,6 +144,7 @@ class Stream:
                 self._ground.scene.world.bounds,
                 np.random.default_rng([self._seed, round_number]),
                 self._parameters.destinations,
+                self._ground.room,
             )
         )
         free = self._ground.is_free(states)

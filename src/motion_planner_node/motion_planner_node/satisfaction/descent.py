@@ -8,6 +8,7 @@ derivatives do, in variables scaled so that a radian and a length weigh alike.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,10 +32,12 @@ from motion_planner_node.satisfaction.machine import (
     TRUNCATED,
     Limits,
 )
-from motion_planner_node.satisfaction.program import Program
 from motion_planner_node.satisfaction.room import ANYWHERE, Room
 from motion_planner_node.satisfaction.row import wrap
 from motion_planner_node.world.clearance import clearances
+
+if TYPE_CHECKING:
+    from motion_planner_node.satisfaction.program import Program
 
 
 @dataclass(frozen=True, slots=True)

@@ -64,28 +64,34 @@ def destinations(
     The descent from ``start`` comes first if it succeeds; each further attitude is the one farthest
     from those before it. Descents that end in an obstacle, or outside ``bounds``, go on from there
     with the obstacles as one more constraint, which pushes them out. Without a ``room`` there are
-    no obstacles. A program that says nothing about the attitude is satisfied at ``start`` or
-    nowhere.
+    no obstacles. Only where no destination is free, blocked ones on the map are given. A program
+    that says nothing about the attitude is satisfied at ``start`` or nowhere.
     """
     room = within(bounds) if room is None else room
-    first = _pushed_out(program, from_start(program, start), room)
-    if not program.depends_on_attitude:
-        return first
-    tries = int(np.ceil(_OVERSAMPLING * count))
-    found = np.concatenate(
-        (first, _pushed_out(program, restarts(program, bounds, rng, tries), room))
-    )
+    descent = from_start(program, start)
+    free, blocked = _sorted_out(program, descent, room)
+    if program.depends_on_attitude:
+        tries = int(np.ceil(_OVERSAMPLING * count))
+        more = _sorted_out(program, restarts(program, bounds, rng, tries), room)
+        free, blocked = np.concatenate((free, more[0])), np.concatenate((blocked, more[1]))
+    found = free if len(free) else blocked
     return found[_farthest_points(found, count)]
 
 
-def _pushed_out(program: Program, descent: Descent, room: Room) -> Array:
-    """Where the descents end that succeed, after those that end in obstacles have left them."""
+def _sorted_out(program: Program, descent: Descent, room: Room) -> tuple[Array, Array]:
+    """Where the descents end that satisfy the program: in free places, and in blocked ones.
+
+    Those that have ended in an obstacle are first pushed out of it.
+    """
     blocked = clearances(room.shapes, descent.states) < room.clearance
-    good = descent.states[descent.satisfied & ~blocked]
+    free = descent.states[descent.satisfied & ~blocked]
     if not blocked.any():
-        return good
+        return free, descent.states[:0]
     again = descend(program, descent.states[blocked], room=room)
-    return np.concatenate((good, again.states[again.satisfied]))
+    free = np.concatenate((free, again.states[again.satisfied]))
+    low, high = room.shapes.bounds[:2], room.shapes.bounds[2:]
+    on_map = ((low <= descent.states[:, :2]) & (descent.states[:, :2] <= high)).all(axis=1)
+    return free, descent.states[descent.satisfied & blocked & on_map]
 
 
 def _farthest_points(states: Array, count: int) -> NDArray[np.int64]:

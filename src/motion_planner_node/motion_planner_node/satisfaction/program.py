@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from copy import copy
 from functools import cached_property
 from math import isfinite, isnan, pi
 from typing import Literal
@@ -24,7 +26,8 @@ from motion_planner_node.language.syntax import (
 from motion_planner_node.language.tape import Tape
 from motion_planner_node.requests import Residual
 from motion_planner_node.robots.motion import Attitude, GeometricState
-from motion_planner_node.satisfaction.cells import Cells, contradiction, possible
+from motion_planner_node.satisfaction.cells import Cells, possible_positions
+from motion_planner_node.satisfaction.conflicts import contradiction
 from motion_planner_node.satisfaction.recording import Table, record
 from motion_planner_node.satisfaction.row import Row, wrap_angle
 from motion_planner_node.world.model import Bounds, World
@@ -155,9 +158,15 @@ class Program:
             if function.gradient is not None:
                 told[:, index, 1:] = function.gradient.T
 
-    def bounds(self, x: Interval, y: Interval) -> list[Interval]:
-        """Bounds of the functions f_i over boxes of positions, whatever the heading."""
-        heading = Interval(np.float64(-pi), np.float64(pi))
+    @cached_property
+    def uses_heading(self) -> bool:
+        """Whether some function seems to depend on the heading, as seen at a few attitudes."""
+        states = np.random.default_rng(0).uniform(-3.0, 3.0, (8, 3))
+        slopes = [function.gradient for function in self.functions(states, derivatives='full')]
+        return any(slope is not None and bool(np.any(slope[2] != 0.0)) for slope in slopes)
+
+    def bounds(self, x: Interval, y: Interval, heading: Interval) -> list[Interval]:
+        """Bounds of the functions f_i over boxes of attitudes, headings within [-pi, pi]."""
         with np.errstate(all='ignore'):
             values = self._tape.run((x, y, heading), Interval.constant)
             return [row.bounds(values[row.left], values[row.right]) for row in self.rows]
@@ -166,11 +175,26 @@ class Program:
         self, x_lo: Array, x_hi: Array, y_lo: Array, y_hi: Array
     ) -> NDArray[np.bool_]:
         """Which boxes of positions (n,) may hold a destination: False where provably none does."""
-        return possible(self, Cells(x_lo, x_hi, y_lo, y_hi))
+        return possible_positions(self, Cells(x_lo, x_hi, y_lo, y_hi))
 
     def contradiction(self, bounds: Bounds) -> str | None:
         """A sentence when provably no attitude within ``bounds`` satisfies the program."""
         return contradiction(self, bounds)
+
+    def only(self, rows: Sequence[int]) -> Program:
+        """The program with only the constraints number ``rows``."""
+        part = copy(self)
+        for name in ('table', 'conditions', 'uses_heading'):
+            vars(part).pop(name, None)
+        part.rows = tuple(self.rows[index] for index in rows)
+        part.constraints = tuple(row.text for row in part.rows)
+        return part
+
+    def position(self, label: str) -> tuple[float, float]:
+        """Where [m] an object, or an agent that does not move, is."""
+        if label in self._fields:
+            return self._fields[label]['x'], self._fields[label]['y']
+        return self.start[label].x, self.start[label].y
 
     def violations(self, states: Array) -> Array:
         """By how much ``states`` (n, 3) miss each of the m constraints: (n, m), 0 where it holds.
@@ -230,6 +254,7 @@ class Program:
         constraint, periodic = compared(item, self.agents)
         return Row(
             text=to_text(item),
+            constraint=constraint,
             comparator=constraint.comparator,
             left=self._tape.slot(constraint.left),
             right=self._tape.slot(constraint.right),
