@@ -137,6 +137,9 @@ class _Checker:
         """What stands alone has to be a condition, and can be negated unless it is an equality."""
         call, negated = unwrapped(condition.call)
         function = FUNCTIONS.get(call.name)
+        if call.name == NOT:
+            self._error('not(...) takes one condition, such as inside(?r, ?z)', condition)
+            return
         if function is None:
             known = [*COMMANDS[:1], NOT, *FUNCTIONS]
             self._unknown('command or condition', call.name, known, condition)

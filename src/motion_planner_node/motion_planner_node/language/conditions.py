@@ -15,14 +15,17 @@ from motion_planner_node.language.syntax import (
 #: What excludes a comparison with zero. An equality's opposite excludes a single number.
 OPPOSITE = {'<=': '>', '>=': '<', '=': '!='}
 
+#: Numbers that differ by no more than this count as equal, for ``=`` as for ``!=``.
+APART = 1e-9
+
 NOT = 'not'
 
 
 def comparison(item: Constraint | Condition, is_angular: bool) -> Constraint:
     """What ``item`` asks for with one of ``<``, ``<=``, ``>``, ``>=`` and ``=``.
 
-    A condition compares its function with zero, and ``a != b`` asks for ``abs(a - b) > 0``, or for
-    ``angle_between(a, b) > 0`` where it ``is_angular``. ``item`` has to be free of errors.
+    A condition compares its function with zero, and ``a != b`` asks for ``abs(a - b) > 1e-9``, or
+    for ``angle_between(a, b) > 1e-9`` where it ``is_angular``. ``item`` has to be free of errors.
     """
     if isinstance(item, Constraint):
         if item.comparator != '!=':
@@ -52,4 +55,4 @@ def _apart(left: Expression, right: Expression, is_angular: bool, at: Constraint
         difference: Expression = Call('angle_between', (left, right))
     else:
         difference = Call('abs', (Operation('-', left, right),))
-    return Constraint(difference, '>', Number(0.0), line=at.line, column=at.column)
+    return Constraint(difference, '>', Number(APART), line=at.line, column=at.column)

@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.world.shapes import Shapes
 
+#: Nearer than this [m] to its boundary nothing is inside an obstacle.
+TOUCH = 1e-9
+
 #: What rounding takes from a bound, as a share of the lengths.
 _ROUNDING = 1e-12
 
@@ -51,6 +54,18 @@ def _nearest_to_segment(
     if square > 0.0:
         along = min(max(((x - ax) * dx + (y - ay) * dy) / square, 0.0), 1.0)
     return hypot(x - ax - along * dx, y - ay - along * dy), along
+
+
+@kernel
+def _holds(shapes: Shapes, polygon: int, x: float, y: float) -> bool:
+    """Whether (x, y) is inside a polygon and not on its boundary."""
+    if not _contains(shapes, polygon, x, y):
+        return False
+    for i in range(shapes.first_edge[polygon], shapes.first_edge[polygon + 1]):
+        x0, y0, x1, y1 = _four(shapes.edges[i])
+        if _nearest_to_segment(x, y, x0, y0, x1, y1)[0] <= TOUCH:
+            return False
+    return True
 
 
 @kernel
@@ -135,7 +150,7 @@ def _obstruction(
             continue
         if k >= polygons:
             cx, cy, radius = _three(shapes.discs[k - polygons])
-            if hypot(cx - ox, cy - oy) < radius:
+            if hypot(cx - ox, cy - oy) < radius - TOUCH:
                 continue
             distance, share = _nearest_to_segment(cx, cy, px, py, ox, oy)
             value = radius - distance
@@ -146,7 +161,7 @@ def _obstruction(
             slopes[0], slopes[1] = -(1.0 - share) * east, -(1.0 - share) * north
             slopes[2], slopes[3] = -share * east, -share * north
         else:
-            if _contains(shapes, k, ox, oy):
+            if _holds(shapes, k, ox, oy):
                 continue
             value = -_free_distance(shapes, k, sight, slopes)
             slopes *= -1.0
@@ -224,7 +239,7 @@ def _least_obstruction(shapes: Shapes, box: NDArray[np.float64]) -> float:
     polygons = len(shapes.first_edge) - 1
     for k in range(len(shapes.boxes)):
         if k < polygons:
-            if not _contains(shapes, k, ox, oy):
+            if not _holds(shapes, k, ox, oy):
                 least = max(least, _hidden_by_polygon(shapes, k, box, near, view))
             continue
         cx, cy, radius = _three(shapes.discs[k - polygons])
