@@ -9,6 +9,7 @@ from math import isfinite
 from motion_planner_node.codes import Code
 from motion_planner_node.errors import MotionPlannerError
 from motion_planner_node.language import Preconditions
+from motion_planner_node.parameters import MODES
 from motion_planner_node.requests import GeometricRequest
 from motion_planner_node.robots.motion import Attitude, GeometricState
 from motion_planner_node.satisfaction import Program, compile_program
@@ -67,6 +68,10 @@ def check_request(world: World, request: GeometricRequest) -> None:
     if request.behaviour.strip():
         raise MotionPlannerError(
             Code.UNSUPPORTED, 'behaviour constraints are not supported yet: leave them empty'
+        )
+    if request.mode and request.mode not in MODES:
+        raise MotionPlannerError(
+            Code.UNSUPPORTED, f'there is no mode {request.mode!r}; there are {", ".join(MODES)}'
         )
     if not 0.0 <= request.time_budget < float('inf'):
         raise MotionPlannerError(

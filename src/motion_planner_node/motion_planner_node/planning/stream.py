@@ -40,7 +40,7 @@ class Found:
 
 
 @dataclass(order=True, slots=True)
-class _Candidate:
+class Candidate:
     """A destination; ``length`` [m] is an estimate until there is a motion.
 
     One that may be a dead end comes after all others: the next action has to start there.
@@ -70,7 +70,7 @@ class Stream:
     def _restart(self) -> None:
         self.tried = Tried(self._problem.agent)
         self._found: list[Found] = []
-        self._candidates: list[_Candidate] = []
+        self._candidates: list[Candidate] = []
         self._seen: list[Attitude] = []
         self._failures = 0
         self.proof: Impossible | None = None
@@ -104,7 +104,7 @@ class Stream:
                 self.proof = self._prove()
                 if self.proof:
                     return
-            planned: list[_Candidate] = []
+            planned: list[Candidate] = []
             while self._candidates or planned:
                 best = min(planned, default=None)
                 enough = len(planned) >= self._parameters.paths_per_answer or self._has_failed
@@ -128,7 +128,7 @@ class Stream:
         proof = walled_off(self._problem, self._ground, hopeful)
         return proof or no_attitude(self._problem, self._ground)
 
-    def _answer(self, candidate: _Candidate) -> Found:
+    def _answer(self, candidate: Candidate) -> Found:
         assert candidate.motion is not None
         tried, self.tried = self.tried, Tried(self._problem.agent)
         self._failures = 0
@@ -165,10 +165,10 @@ class Stream:
             else:
                 stays = attitude == self._problem.start
                 dead_end = not stays and not self._ground.can_turn_round(attitude)
-                candidate = _Candidate(dead_end, float(estimate), len(self._seen), attitude)
+                candidate = Candidate(dead_end, float(estimate), len(self._seen), attitude)
                 heapq.heappush(self._candidates, candidate)
 
-    def _plan(self, candidate: _Candidate) -> bool:
+    def _plan(self, candidate: Candidate) -> bool:
         """Find a motion to the candidate and verify it where it ends."""
         self._check_time()
         start, goal = self._problem.start, candidate.attitude
