@@ -26,8 +26,7 @@ def outcomes() -> Mapping[str, Outcome]:
 
 def test_the_search_reaches_what_was_to_be_reached(outcomes: Mapping[str, Outcome]) -> None:
     for target in search_targets(list(outcomes.values())):
-        assert target.met or 'proven impossible' in target.name, str(target)
-    assert sum(bool(outcome.proof_by) for outcome in outcomes.values()) >= 8
+        assert target.met, str(target)
 
 
 def test_sets_about_one_object_are_solved_from_every_start(outcomes: Mapping[str, Outcome]) -> None:
@@ -38,6 +37,28 @@ def test_sets_about_one_object_are_solved_from_every_start(outcomes: Mapping[str
 @pytest.mark.parametrize(
     ('text', 'pose', 'missed'),
     [
+        ('facing(rover0, a)', (100.0, 200.0, 0.25), 0.25),
+        ('object_on_left(rover0, a)', (200.0, 100.0, 0.0), 0.0),
+        ('object_on_right(rover0, a)', (200.0, 100.0, 0.0), math.pi),
+        ('object_behind(rover0, a)', (200.0, 300.0, math.pi / 2), 0.0),
+        ('field_of_view(rover0, a, deg(60))', (100.0, 200.0, 1.0), 1.0 - math.pi / 6),
+        ('not(field_of_view(rover0, a, deg(60)))', (100.0, 200.0, 1.0), 0.0),
+        ('inside(rover0, pond)', (350.0, 520.0, 0.0), 10.0),
+        ('outside(rover0, court)', (410.0, 100.0, 0.0), 10.0),
+        ('distance_to_boundary(rover0, pond) = 5', (350.0, 450.0, 0.0), 55.0),
+        ('clearance(rover0) >= 20', (330.0, 200.0, 0.0), 10.0),
+        ('clearance(rover0) >= 20', (5.0, 200.0, 0.0), 15.0),
+        ('visible(rover0, b)', (310.0, 200.0, 0.0), 20.0),
+        ('visible(rover0, a)', (310.0, 200.0, 0.0), 0.0),
+        ('not(visible(rover0, a))', (310.0, 200.0, 0.0), 1.0),
+        ('cross_track(rover0, a, b) = 7', (0.0, 210.0, 0.0), 3.0),
+        ('along_track(rover0, a, b) = -50', (100.0, 210.0, 0.0), 50.0),
+        ('distance_to_segment(rover0, a, b) <= 7', (510.0, 200.0, 0.0), 3.0),
+        ('equidistant(rover0, a, b)', (200.0, 200.0, 0.0), 300.0),
+        ('same_heading(rover0, rover1)', (0.0, 0.0, 2.0), 0.5),
+        ('angle_between(bearing(rover0, a), heading(rover0)) = 1', (0.0, 200.0, -1.5), 0.5),
+        ('rover0.x != a.x', (200.0, 0.0, 0.0), 1.0),
+        ('min(distance(rover0, a), rover0.x) >= 150', (100.0, 200.0, 0.0), 50.0),
         ('distance(rover0, a) >= 50', (200.0, 240.0, 0.0), 10.0),
         ('distance(rover0, a) <= 50', (200.0, 240.0, 0.0), 0.0),
         ('rel_angle(rover0, a) = cos-and-sin(pi/2)', (100.0, 200.0, math.pi / 2), 0.0),

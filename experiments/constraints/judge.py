@@ -9,56 +9,40 @@ from __future__ import annotations
 import ast
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
+from experiments.constraints.geometry import (
+    CONDITIONS,
+    Angle,
+    Area,
+    Somebody,
+    Surroundings,
+    functions,
+)
 from experiments.constraints.sets import ConstraintSet
 
 Pose = tuple[float, float, float]
 
 #: Bounds that leave everything in.
 EVERYWHERE = (-math.inf, -math.inf, math.inf, math.inf)
-#: Added to the violation of < and >, which allow no tolerance at all.
+#: The violation of <, > and != where both sides are equal: they allow no tolerance at all.
 STRICTLY = 1.0
 
-
-@dataclass(frozen=True)
-class Angle:
-    """A number of radians that is compared modulo 2 pi."""
-
-    radians: float
-
-
-@dataclass(frozen=True)
-class Somebody:
-    """An agent or an object: its fields by name."""
-
-    fields: Mapping[str, float]
-
-    @property
-    def at(self) -> tuple[float, float]:
-        """Where it is."""
-        return self.fields['x'], self.fields['y']
-
-
-def _bearing(one: Somebody, other: Somebody) -> float:
-    (x, y), (to_x, to_y) = one.at, other.at
-    return math.atan2(to_y - y, to_x - x) if (x, y) != (to_x, to_y) else math.nan
-
-
-FUNCTIONS: dict[str, Callable[..., Any]] = {
-    'distance': lambda one, other: math.dist(one.at, other.at),
-    'rel_angle': lambda one, other: Angle(one.fields['heading'] - _bearing(one, other)),
-    'cos_and_sin': Angle,
-    'deg': math.radians,
-}
-
-OPERATIONS: dict[type[ast.operator], Callable[[float, float], float]] = {
+_OPERATIONS: dict[type[ast.operator], Callable[[float, float], float]] = {
     ast.Add: lambda left, right: left + right,
     ast.Sub: lambda left, right: left - right,
     ast.Mult: lambda left, right: left * right,
     ast.Div: lambda left, right: left / right,
 }
+_COMPARATORS: dict[type[ast.cmpop], str] = {
+    ast.Lt: '<',
+    ast.LtE: '<=',
+    ast.Gt: '>',
+    ast.GtE: '>=',
+    ast.Eq: '=',
+    ast.NotEq: '!=',
+}
+_OPPOSITE = {'<=': '>', '>=': '<', '=': '!='}
 
 
 class Judge:
@@ -67,10 +51,16 @@ class Judge:
     def __init__(self, world: Mapping[str, Any], agent: str) -> None:
         self._agent = agent
         self._bounds: tuple[float, float, float, float] = tuple(world['bounds'])
-        self._others = {label: Somebody(fields) for label, fields in world['objects'].items()}
+        self._known: dict[str, Any] = {'pi': math.pi}
+        for label, fields in world['objects'].items():
+            self._known[label] = Somebody(fields)
         for label, robot in world['robots'].items():
             if label != agent:
-                self._others[label] = Somebody(robot['start'])
+                self._known[label] = Somebody(robot['start'])
+        for region in world['regions']:
+            self._known[region['name']] = Area(region)
+        obstacles = tuple(Area(obstacle) for obstacle in world['obstacles'])
+        self._functions = functions(Surroundings(obstacles, self._bounds))
 
     def violation(self, constraints: ConstraintSet, pose: Pose, *, bounded: bool = True) -> float:
         """By how much ``pose`` misses the set at worst [m or rad].
@@ -82,48 +72,67 @@ class Judge:
             return math.inf
         x_min, y_min, x_max, y_max = self._bounds if bounded else EVERYWHERE
         missed = [0.0, x_min - x, x - x_max, y_min - y, y - y_max]
-        known = {**self._others, self._agent: Somebody({'x': x, 'y': y, 'heading': heading})}
+        known = {**self._known, self._agent: Somebody({'x': x, 'y': y, 'heading': heading})}
         missed += [self._missed(text, known) for text in constraints.constraints]
         return math.inf if any(map(math.isnan, missed)) else max(missed)
 
-    def _missed(self, text: str, known: Mapping[str, Somebody]) -> float:
+    def _missed(self, text: str, known: Mapping[str, Any]) -> float:
         python = text.replace('cos-and-sin', 'cos_and_sin')
         for comparator in ('<=', '>=', '!='):
             python = python.replace(comparator, comparator[0] + '\0')
-        python = python.replace('=', '==').replace('\0', '=')
-        comparison = ast.parse(python, mode='eval').body
-        assert isinstance(comparison, ast.Compare)
-        left, right = comparison.left, comparison.comparators[0]
-        values = self._value(left, known), self._value(right, known)
-        angular = any(isinstance(value, Angle) for value in values) or any(
-            isinstance(side, ast.Attribute) and side.attr == 'heading' for side in (left, right)
-        )
-        numbers = [value.radians if isinstance(value, Angle) else value for value in values]
-        gap: float = numbers[0] - numbers[1]
-        (operator,) = comparison.ops
-        if isinstance(operator, ast.Eq):
-            return abs(math.remainder(gap, math.tau) if angular else gap)
-        if isinstance(operator, ast.Lt | ast.Gt):
-            signed = gap if isinstance(operator, ast.Lt) else -gap
-            return signed if signed < 0.0 else max(signed, math.ulp(0.0)) + STRICTLY
-        assert isinstance(operator, ast.LtE | ast.GtE)
-        return gap if isinstance(operator, ast.LtE) else -gap
+        node = ast.parse(python.replace('=', '==').replace('\0', '='), mode='eval').body
+        if isinstance(node, ast.Compare):
+            left, right = node.left, node.comparators[0]
+            values = [self._value(left, known), self._value(right, known)]
+            angular = any(isinstance(value, Angle) for value in values) or any(
+                isinstance(side, ast.Attribute) and side.attr == 'heading' for side in (left, right)
+            )
+            numbers = [_number(value) for value in values]
+            return _violation(numbers[0] - numbers[1], _COMPARATORS[type(node.ops[0])], angular)
+        negated = isinstance(node, ast.UnaryOp)
+        call = node.operand if isinstance(node, ast.UnaryOp) else node
+        assert isinstance(call, ast.Call)
+        assert isinstance(call.func, ast.Name)
+        comparator = CONDITIONS[call.func.id]
+        value = self._value(call, known)
+        comparator = _OPPOSITE[comparator] if negated else comparator
+        return _violation(_number(value), comparator, isinstance(value, Angle))
 
-    def _value(self, node: ast.expr, known: Mapping[str, Somebody]) -> Any:
+    def _value(self, node: ast.expr, known: Mapping[str, Any]) -> Any:
         if isinstance(node, ast.Constant):
             assert isinstance(node.value, int | float)
             return float(node.value)
         if isinstance(node, ast.Name):
-            return math.pi if node.id == 'pi' else known[node.id]
+            return known[node.id]
         if isinstance(node, ast.Attribute):
             return float(self._value(node.value, known).fields[node.attr])
         if isinstance(node, ast.UnaryOp):
             assert isinstance(node.op, ast.USub)
             return -self._value(node.operand, known)
         if isinstance(node, ast.BinOp):
-            operation = OPERATIONS[type(node.op)]
+            operation = _OPERATIONS[type(node.op)]
             return operation(self._value(node.left, known), self._value(node.right, known))
         assert isinstance(node, ast.Call)
         assert isinstance(node.func, ast.Name)
-        function = FUNCTIONS[node.func.id]
+        function = self._functions[node.func.id]
         return function(*(self._value(argument, known) for argument in node.args))
+
+
+def _number(value: Angle | float) -> float:
+    return value.radians if isinstance(value, Angle) else value
+
+
+def _violation(gap: float, comparator: str, angular: bool) -> float:
+    """By how much left minus right side, ``gap``, is not as ``comparator`` wants it."""
+    if math.isnan(gap):
+        return math.nan
+    if comparator in {'=', '!='} and angular:
+        gap = math.remainder(gap, math.tau)
+    if comparator == '=':
+        return abs(gap)
+    if comparator == '!=':
+        return 0.0 if gap else STRICTLY
+    signed = gap if comparator in {'<', '<='} else -gap
+    if comparator in {'<', '>'} and signed >= 0.0:
+        return signed + STRICTLY
+    return signed

@@ -72,8 +72,8 @@ class Bench:
         sentence = program.contradiction(self.world.bounds)
         if sentence is None:
             return '', ''
-        by = 'the text' if program.contradictions else 'interval bounds over the map'
-        return by, sentence
+        _, _, by = sentence.rstrip(')').rpartition('(proven by ')
+        return 'the text alone' if program.contradictions else by, sentence
 
     def on_map(self, states: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Which attitudes (n, 3) are where a destination may be: only those are handed out."""

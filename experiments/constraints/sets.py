@@ -25,12 +25,14 @@ class ConstraintSet:
     feasible: bool
     agents: tuple[str, ...]
     objects: tuple[str, ...]
+    regions: tuple[str, ...] = ()
 
     @property
     def text(self) -> str:
         """The set as a text of geometric preconditions."""
         statements = [f'(agent {label})' for label in self.agents]
         statements += [f'(object {label})' for label in self.objects]
+        statements += [f'(region {label})' for label in self.regions]
         return '(' + '\n '.join([*statements, *(f'({text})' for text in self.constraints)]) + ')'
 
 
@@ -57,4 +59,7 @@ def _constraint_set(
     used = {label for text in constraints for label in re.findall(r'[A-Za-z_]\w*', text)}
     others = [label for label in world['robots'] if label in used and label != AGENT]
     objects = [label for label in world['objects'] if label in used]
-    return ConstraintSet(name, tuple(constraints), feasible, (AGENT, *others), tuple(objects))
+    regions = [region['name'] for region in world['regions'] if region['name'] in used]
+    return ConstraintSet(
+        name, tuple(constraints), feasible, (AGENT, *others), tuple(objects), tuple(regions)
+    )
