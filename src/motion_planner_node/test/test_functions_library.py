@@ -77,8 +77,8 @@ def value_of(function: Function, state: State) -> float:
 
 
 def bearing(state: State) -> float:
-    ahead = complex(state[3] - state[0], state[4] - state[1])
-    return cmath.phase(ahead) if ahead else math.nan
+    east, north = state[3] - state[0], state[4] - state[1]
+    return math.atan2(north, east) if east or north else math.nan
 
 
 def length(state: State, first: int, second: int) -> float:
@@ -86,7 +86,7 @@ def length(state: State, first: int, second: int) -> float:
 
 
 def angle_between(first: float, second: float) -> float:
-    return abs(cmath.phase(cmath.rect(1.0, first - second)))
+    return abs(math.remainder(first - second, 2.0 * math.pi))
 
 
 def along_line(state: State) -> complex:
@@ -94,8 +94,16 @@ def along_line(state: State) -> complex:
     start, end = complex(*state[3:5]), complex(*state[6:8])
     if start == end:
         return complex(math.nan, math.nan)
-    turned: complex = (complex(*state[0:2]) - start) * cmath.rect(1.0, -cmath.phase(end - start))
+    turn = math.atan2((end - start).imag, (end - start).real)
+    turned: complex = (complex(*state[0:2]) - start) * cmath.rect(1.0, -turn)
     return turned
+
+
+def to_segment(state: State) -> float:
+    if length(state, 1, 2) < 1e-100:
+        return length(state, 0, 1)
+    line = shapely.LineString([state[3:5], state[6:8]])
+    return float(line.distance(shapely.Point(state[:2])))
 
 
 def to_bay(state: State) -> float:
@@ -126,9 +134,7 @@ EXPECTED: dict[str, Callable[[State], float]] = {
     'same_heading': lambda s: s[2] - s[5],
     'field_of_view': lambda s: angle_between(s[2], bearing(s)) - s[8] / 2.0,
     'equidistant': lambda s: length(s, 0, 1) - length(s, 0, 2),
-    'distance_to_segment': lambda s: float(
-        shapely.LineString([s[3:5], s[6:8]]).distance(shapely.Point(s[:2]))
-    ),
+    'distance_to_segment': to_segment,
     'cross_track': lambda s: along_line(s).imag,
     'along_track': lambda s: along_line(s).real,
     'inside': to_bay,

@@ -208,10 +208,11 @@ def test_any_text_is_read_or_refused_with_a_place(text: str) -> None:
     try:
         parsed = parse(text)
     except MotionPlannerError as error:
-        (diagnostic,) = error.diagnostics
-        assert diagnostic.line >= 1
-        assert diagnostic.column >= 1
-        assert diagnostic.message.isprintable()
-        assert diagnostic.text.isprintable()
+        assert error.diagnostics
+        for diagnostic in error.diagnostics:
+            assert diagnostic.line >= 1
+            assert diagnostic.column >= 1
+            assert diagnostic.message.isprintable()
+            assert diagnostic.text.isprintable()
     else:
         assert parse(to_text(parsed)) == parsed

@@ -44,6 +44,8 @@ planner.advise(AdviceRequest(tuple(map(text, range(1, 9))), state))
 for k in range(1, 9):
     answer = planner.satisfy(GeometricRequest(text(k), state))
     state = answer.end or state
+seen = text(1)[:-1] + '(visible(rover0, location1))(clearance(rover0) >= 10))'
+planner.satisfy(GeometricRequest(seen, state))
 late = {key: count for key, count in compiled().items() if count != before.get(key)}
 assert before, 'no kernels were found'
 assert not late, late

@@ -6,6 +6,7 @@ from motion_planner_node.language.parser import (
     MAXIMUM_ITEMS,
     MAXIMUM_SIZE,
     parse,
+    read,
 )
 from motion_planner_node.language.printer import number_to_text, to_text
 from motion_planner_node.language.syntax import (
@@ -30,5 +31,6 @@ __all__ = [
     'check',
     'number_to_text',
     'parse',
+    'read',
     'to_text',
 ]
