@@ -22,6 +22,7 @@ from rclpy.utilities import remove_ros_args
 from motion_planner_node import conversions
 from motion_planner_node.codes import Code
 from motion_planner_node.errors import Diagnostic, MotionPlannerError, Stopped
+from motion_planner_node.functions import PluginError, load_plugins
 from motion_planner_node.parameters import (
     ParameterError,
     Parameters,
@@ -288,10 +289,11 @@ def main(arguments: list[str] | None = None) -> int:
     except RuntimeError as error:  # how rcl refuses its arguments
         return _refuse(error)
     try:
+        load_plugins()
         _serve()
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
-    except (ParameterError, MotionPlannerError) as error:
+    except (ParameterError, PluginError, MotionPlannerError) as error:
         return _refuse(error)
     except RuntimeError:  # what rcl raises in the middle of an exchange once it was shut down
         if rclpy.ok():
