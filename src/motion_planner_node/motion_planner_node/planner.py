@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from motion_planner_node.advice.advisor import Advisor
-from motion_planner_node.errors import MotionPlannerError, Stopped
-from motion_planner_node.language import Preconditions, parse
+from motion_planner_node.errors import Diagnostic, MotionPlannerError, Stopped
+from motion_planner_node.language import Preconditions, check, parse
 from motion_planner_node.parameters import PAPER_MODE, Parameters
 from motion_planner_node.planning import answers
 from motion_planner_node.planning.cache import Cache
@@ -59,6 +59,7 @@ class MotionPlanner:
         self._grounds: dict[CarModel, Ground] = {}
         size = self._parameters.cache_size
         self._texts: Cache[str, Preconditions] = Cache(size)
+        self._remarks: Cache[str, tuple[Diagnostic, ...]] = Cache(size)
         self._streams: Cache[object, Stream] = Cache(size)
         self._advisor = Advisor(world, self._parameters, self._parsed, self._ground)
 
@@ -73,7 +74,10 @@ class MotionPlanner:
             check_request(self.world, request)
             state = checked_state(self.world, request.start)
             preconditions = self._parsed(request.preconditions)
-            problem = read_problem(self.world, preconditions, state, request.agent)
+            remarks = self._remarks.get(
+                request.preconditions, lambda: check(preconditions, self.world)
+            )
+            problem = read_problem(self.world, preconditions, state, request.agent, remarks)
             if problem.program.assigns:
                 return answers.assigned(problem, self._ground, request.alternative)
         except MotionPlannerError as error:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from math import isfinite
 
 from motion_planner_node.codes import Code
-from motion_planner_node.errors import MotionPlannerError
+from motion_planner_node.errors import Diagnostic, MotionPlannerError
 from motion_planner_node.language import Preconditions
 from motion_planner_node.parameters import MODES
 from motion_planner_node.requests import GeometricRequest
@@ -44,14 +44,20 @@ class Problem:
 
 
 def read_problem(
-    world: World, preconditions: Preconditions, state: GeometricState, agent: str = ''
+    world: World,
+    preconditions: Preconditions,
+    state: GeometricState,
+    agent: str = '',
+    remarks: Sequence[Diagnostic] | None = None,
 ) -> Problem:
     """Compile ``preconditions`` for ``state``; ``agent`` moves, or the first one stated.
+
+    ``remarks`` are those of ``language.check``, where they are known.
 
     :raises MotionPlannerError: UNKNOWN_AGENT, UNKNOWN_OBJECT, UNKNOWN_FUNCTION,
         UNKNOWN_PROPERTY, NO_START or INVALID_PRECONDITIONS
     """
-    program = compile_program(preconditions, world, state, agent)
+    program = compile_program(preconditions, world, state, agent, remarks)
     if not program.assigns and program.agent not in state:
         raise MotionPlannerError(
             Code.NO_START, f'{program.agent} has no attitude yet: nothing has assigned one'

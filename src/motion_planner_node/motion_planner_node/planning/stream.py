@@ -98,6 +98,11 @@ class Stream:
         return self._found[alternative] if alternative < len(self._found) else None
 
     def _generate(self) -> Iterator[Found]:
+        if not self._problem.program.unmet(self._problem.start):
+            # Nothing is nearer than here; other destinations are for those who ask for them.
+            stay = Candidate(dead_end=False, length=0.0, number=0, attitude=self._problem.start)
+            stay.motion = Motion(self._problem.agent, self._problem.start)
+            yield self._answer(stay)
         for round_number in range(self._parameters.rounds):
             self._add_candidates(round_number)
             if round_number == 0 and not self._candidates:

@@ -263,9 +263,15 @@ class Program:
 
 
 def compile_program(
-    preconditions: Preconditions, world: World, start: GeometricState, agent: str = ''
+    preconditions: Preconditions,
+    world: World,
+    start: GeometricState,
+    agent: str = '',
+    remarks: Sequence[Diagnostic] | None = None,
 ) -> Program:
     """Compile ground preconditions for ``agent``, or else for the first one that they state.
+
+    ``remarks`` are those of ``language.check`` for the same text and world, where they are known.
 
     Raises MotionPlannerError with all that ``language.check`` finds except contradictions, which
     the program itself proves (``contradiction``); UNKNOWN_AGENT when ``agent`` is not stated;
@@ -275,7 +281,7 @@ def compile_program(
         names = ', '.join(sorted(preconditions.variables))
         message = f'the preconditions are not ground: {names}'
         raise MotionPlannerError(Code.INVALID_PRECONDITIONS, message)
-    found = check(preconditions, world)
+    found = check(preconditions, world) if remarks is None else remarks
     errors = [diagnostic for diagnostic in found if diagnostic.code is not Code.CONTRADICTION]
     if errors:
         raise MotionPlannerError.from_diagnostics(errors)
