@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -307,3 +308,15 @@ def test_standing_on_a_place_is_no_exception(name: str) -> None:
         'along_track',
     }
     assert math.isnan(value) == (name in undefined)
+
+
+@pytest.mark.parametrize('name', FUNCTIONS)
+def test_every_function_is_documented(name: str) -> None:
+    documents = Path(__file__).resolve().parents[3] / 'docs'
+    rows = [
+        line
+        for line in (documents / 'functions.md').read_text().splitlines()
+        if line.startswith('| `') and f'`{name}(' in line
+    ]
+    assert len(rows) == 1
+    assert FUNCTIONS[name].description.endswith('.')
