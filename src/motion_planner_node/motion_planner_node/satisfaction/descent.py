@@ -39,6 +39,9 @@ from motion_planner_node.world.clearance import clearances
 if TYPE_CHECKING:
     from motion_planner_node.satisfaction.program import Program
 
+#: Of two places on the spiral of retries: angle [rad], and distance in lengths of the options.
+_GOLDEN_ANGLE, _SPACING = np.pi * (3.0 - np.sqrt(5.0)), 3.0
+
 
 @dataclass(frozen=True, slots=True)
 class DescentOptions:
@@ -49,12 +52,15 @@ class DescentOptions:
         damped_steps: at most so many Levenberg-Marquardt steps follow
         halvings: the step length of equation 5 starts at 1 and is halved so often at most
         length: what weighs as much as a radian [m]
+        retries: a descent that fails is tried again so often at most, from places on a spiral
+            round the one where it began
     """
 
     truncated_steps: int = 8
     damped_steps: int = 50
     halvings: int = 4
     length: float = 50.0
+    retries: int = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,9 +94,33 @@ def descend(
 ) -> Descent:
     """Descend from each of ``states`` (n, 3) until all constraints are met or no step helps.
 
-    Obstacles and edges of ``room`` are kept away from like one more constraint.
+    Obstacles and edges of ``room`` are kept away from like one more constraint. What fails with all
+    its retries ends where its first descent did.
     """
     begin = np.array(states, dtype=np.float64).reshape(-1, 3)
+    result = _descend_once(program, begin, options, room)
+    for retry in range(options.retries):
+        failed = np.flatnonzero(~result.satisfied)
+        if not len(failed):
+            break
+        again = _descend_once(program, _beside(begin[failed], retry, options), options, room)
+        result.iterations[failed] += again.iterations
+        solved = failed[again.satisfied]
+        result.satisfied[solved] = True
+        result.states[solved] = again.states[again.satisfied]
+        result.violations[solved] = again.violations[again.satisfied]
+    return result
+
+
+def _beside(states: Array, retry: int, options: DescentOptions) -> Array:
+    """Where the descents from ``states`` (n, 3) begin anew: farther away with every ``retry``."""
+    angle = _GOLDEN_ANGLE * (retry + 1)
+    reach = _SPACING * options.length * (retry + 1)
+    step = np.array([reach * np.cos(angle), reach * np.sin(angle), 2.0 * angle])
+    return np.asarray(states + step)
+
+
+def _descend_once(program: Program, begin: Array, options: DescentOptions, room: Room) -> Descent:
     limits = Limits(options.truncated_steps, options.damped_steps, options.halvings, options.length)
     margin = 2.0 * program.tolerance
     if program.table is None:
