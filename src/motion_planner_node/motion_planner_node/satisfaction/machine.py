@@ -21,6 +21,10 @@ TRUNCATED, DAMPED, DONE = 0, 1, 2
 _LEAST_PIVOT = 1e-12
 _MOST_DAMPING = 1e8
 
+#: A step of the paper that leaves more than this share of the criterion hands over to damped steps,
+#: two damped steps in turn that each leave more than that share have come to a standstill.
+_SLOW, _STALL = 0.25, 0.999
+
 
 class Limits(NamedTuple):
     """Limits of a descent; `DescentOptions` says what they mean."""
@@ -35,8 +39,9 @@ class Limits(NamedTuple):
 # the phase, whether the trial is the phase's first, steps tried in the phase, halvings of the step,
 # steps taken in all, the criterion at the best place, and the step length or the damping;
 PHASE, _FIRST, _TRIED, _HALVED, TAKEN, _CRITERION, _STEP = range(7)
-# the best place, the trial, which is to be evaluated, and the direction of its step.
-BEST, TRIAL, _DIRECTION, HEAD = 7, 10, 13, 16
+# the best place, the trial, which is to be evaluated, the direction of its step, and how many damped
+# steps in turn have hardly helped.
+BEST, TRIAL, _DIRECTION, _STALLED, HEAD = 7, 10, 13, 16, 17
 # Its memory (m, MEMORY) holds residuals and their slopes at the best place, and their weights.
 _RESIDUAL, _SLOPE, _WEIGHT, MEMORY = 0, 1, 4, 5
 
@@ -90,11 +95,12 @@ def _accept(head: Array, memory: Array, criterion: float, told: Array) -> None:
 def _advance_truncated(
     head: Array, memory: Array, limits: Limits, told: Array, conditions: Array
 ) -> None:
-    """Equation 5 with the derived codes of Table 2, until no step length helps."""
+    """Equation 5 with the derived codes of Table 2, while it helps much."""
     criterion = 0.0
     for row in range(len(memory)):
         criterion += 0.5 * told[row, _RESIDUAL] * told[row, _RESIDUAL]
     if head[_FIRST] or criterion < head[_CRITERION]:
+        is_slow = head[_FIRST] == 0.0 and criterion > _SLOW * head[_CRITERION]
         _accept(head, memory, criterion, told)
         if _is_met(memory, conditions):
             head[PHASE] = DONE
@@ -109,7 +115,7 @@ def _advance_truncated(
         head[_STEP] = 1.0
         head[_HALVED] = 0.0
         head[_TRIED] += 1.0
-        is_over = head[_TRIED] > limits.truncated_steps or steepness == 0.0
+        is_over = is_slow or head[_TRIED] > limits.truncated_steps or steepness == 0.0
     else:
         head[_STEP] *= 0.5
         head[_HALVED] += 1.0
@@ -141,15 +147,17 @@ def _advance_damped(
     for row in range(len(memory)):
         criterion += (told[row, _RESIDUAL] * memory[row, _WEIGHT]) ** 2
     if is_first or criterion < head[_CRITERION]:
-        _accept(head, memory, criterion, told)
         if not is_first:
             head[_STEP] = max(0.1 * head[_STEP], 1e-12)
+            head[_STALLED] = head[_STALLED] + 1.0 if criterion > _STALL * head[_CRITERION] else 0.0
+        _accept(head, memory, criterion, told)
         if _is_met(memory, conditions):
             head[PHASE] = DONE
             return
     else:
         head[_STEP] *= 8.0
-    if head[_TRIED] >= limits.damped_steps or not head[_STEP] < _MOST_DAMPING:
+    is_stuck = head[_STALLED] > 1.0 or not head[_STEP] < _MOST_DAMPING
+    if is_stuck or head[_TRIED] >= limits.damped_steps:
         head[PHASE] = DONE
         return
     head[_TRIED] += 1.0
