@@ -24,6 +24,7 @@ class PaperStream(Stream):
     def _generate(self) -> Iterator[Found]:
         start, bounds = self._problem.start, self._ground.scene.world.bounds
         rng = np.random.default_rng([self._seed, 0])
+        self._share = 0.0
         candidates = algorithm_1(
             PaperCriterion(self._problem.program),
             np.array([start.x, start.y, start.heading]),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from math import hypot, remainder, tau
+from math import hypot, pi, remainder, tau
 
 import numpy as np
 
@@ -28,6 +28,9 @@ from motion_planner_node.satisfaction import destinations
 
 #: Destinations that are as near as this [m] and [rad] are the same one, found again.
 SAME = 1e-3
+
+#: Alternatives first have to differ by this much of all that they can, then by less and less.
+SHARES = (0.5, 0.25, 0.125, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +59,9 @@ class Candidate:
 class Stream:
     """Motions to really different destinations, the shortest of a handful first.
 
+    Those that come after the first are on another side or at another distance, as far as there is
+    any; when there is no more, they may be nearer to those before them.
+
     What comes k-th depends on the problem, the seed and the parameters alone: not on who asked
     before, nor on time.  Counts bound the work; ``should_stop`` only breaks it off.
     """
@@ -71,6 +77,9 @@ class Stream:
         self.tried = Tried(self._problem.agent)
         self._found: list[Found] = []
         self._candidates: list[Candidate] = []
+        self._alike: list[Candidate] = []
+        self._share = SHARES[0]
+        self._spread = 0.0
         self._seen: list[Attitude] = []
         self._failures = 0
         self.proof: Impossible | None = None
@@ -105,24 +114,37 @@ class Stream:
             yield self._answer(stay)
         for round_number in range(self._parameters.rounds):
             self._add_candidates(round_number)
-            if round_number == 0 and not self._candidates:
+            if round_number == 0 and not self._candidates and not self._found:
                 self.proof = self._prove()
                 if self.proof:
                     return
-            planned: list[Candidate] = []
-            while self._candidates or planned:
-                best = min(planned, default=None)
-                enough = len(planned) >= self._parameters.paths_per_answer or self._has_failed
-                if best and (enough or not self._candidates or best < self._candidates[0]):
-                    planned.remove(best)
-                    yield self._answer(best)
-                    planned = [other for other in planned if self._is_new(other.attitude)]
-                elif self._has_failed:
+            for share in SHARES:
+                self._share = share
+                yield from self._answers()
+                if self._has_failed:
                     return
-                else:
-                    candidate = heapq.heappop(self._candidates)
-                    if self._is_new(candidate.attitude) and self._plan(candidate):
-                        planned.append(candidate)
+                self._candidates, self._alike = self._alike, []
+                heapq.heapify(self._candidates)
+
+    def _answers(self) -> Iterator[Found]:
+        """Motions to candidates that are new, as much as is asked for now; others are laid aside."""
+        planned: list[Candidate] = []
+        while self._candidates or planned:
+            best = min(planned, default=None)
+            enough = len(planned) >= self._parameters.paths_per_answer or self._has_failed
+            if best and (enough or not self._candidates or best < self._candidates[0]):
+                planned.remove(best)
+                yield self._answer(best)
+                self._alike += [other for other in planned if not self._is_new(other.attitude)]
+                planned = [other for other in planned if self._is_new(other.attitude)]
+            elif self._has_failed:
+                return
+            else:
+                candidate = heapq.heappop(self._candidates)
+                if not self._is_new(candidate.attitude):
+                    self._alike.append(candidate)
+                elif candidate.motion or self._plan(candidate):
+                    planned.append(candidate)
 
     @property
     def _has_failed(self) -> bool:
@@ -156,6 +178,8 @@ class Stream:
         here = self._ground.part_of(self._problem.start)
         near = self._ground.parts_of(states) == here
         estimates = self._ground.estimates(self._problem.start, states)
+        if len(states):
+            self._spread = max(self._spread, float(np.ptp(states[:, :2], axis=0).max()))
         for state, is_free, is_near, estimate in zip(states, free, near, estimates, strict=True):
             attitude = Attitude(*(float(number) for number in state))
             if not all(_differ(attitude, seen, SAME, SAME) for seen in self._seen):
@@ -203,8 +227,10 @@ class Stream:
         return True
 
     def _is_new(self, attitude: Attitude) -> bool:
-        """Whether ``attitude`` really differs from all that was answered before."""
-        far, turned = self._parameters.alternative_distance, self._parameters.alternative_heading
+        """Whether ``attitude`` differs from all that was answered before, as much as asked for now."""
+        parameters, share = self._parameters, self._share
+        far = max(parameters.alternative_distance, share * self._spread)
+        turned = max(parameters.alternative_heading, share * pi)
         return all(_differ(attitude, found.end, far, turned) for found in self._found)
 
     def _check_time(self) -> None:
