@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from motion_planner_node.functions import (
@@ -235,6 +235,7 @@ def test_slopes_are_those_of_finite_differences(
 
 @settings(max_examples=80, deadline=None)
 @given(NEAR, st.floats(min_value=0.0, max_value=20.0), st.floats(min_value=0.0, max_value=2.0))
+@example((0.0,) * 9, 5e-324, 5e-324)
 @pytest.mark.parametrize('name', FUNCTIONS)
 def test_bounds_hold_all_samples_of_a_box(
     name: str, state: State, width: float, turn: float

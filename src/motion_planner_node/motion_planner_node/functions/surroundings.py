@@ -19,6 +19,9 @@ _Array = NDArray[np.float64]
 #: What rounding adds to a distance at most, as a share of the coordinates.
 _ROUNDING = 1e-14
 
+#: More than a distance loses when it underflows [m].
+_SMALLEST = float(np.finfo(np.float64).tiny)
+
 
 class SignedDistance:
     """Distance [m] from (x, y) to the nearest shape, negative in one (or outside the bounds)."""
@@ -43,7 +46,9 @@ class SignedDistance:
         known = np.isfinite(largest)
         middles = [np.where(known, low + 0.5 * (high - low), 0.0) for low, high in ranges]
         distance = self.values(*middles)
-        reach = np.where(known, reach + _ROUNDING * (largest + np.abs(distance)), np.inf)
+        reach = np.where(
+            known, reach + _ROUNDING * (largest + np.abs(distance)) + _SMALLEST, np.inf
+        )
         return distance - reach, distance + reach
 
 
