@@ -98,12 +98,15 @@ def descend(
     its retries ends where its first descent did.
     """
     begin = np.array(states, dtype=np.float64).reshape(-1, 3)
-    result = _descend_once(program, begin, options, room)
-    for retry in range(options.retries):
+    steps = _spiral(options)
+    if program.table is not None:
+        return _descend_once(program, begin, options, room, steps)
+    result = _descend_once(program, begin, options, room, steps[:1])
+    for step in steps[1:]:
         failed = np.flatnonzero(~result.satisfied)
         if not len(failed):
             break
-        again = _descend_once(program, _beside(begin[failed], retry, options), options, room)
+        again = _descend_once(program, begin[failed] + step, options, room, steps[:1])
         result.iterations[failed] += again.iterations
         solved = failed[again.satisfied]
         result.satisfied[solved] = True
@@ -112,15 +115,16 @@ def descend(
     return result
 
 
-def _beside(states: Array, retry: int, options: DescentOptions) -> Array:
-    """Where the descents from ``states`` (n, 3) begin anew: farther away with every ``retry``."""
-    angle = _GOLDEN_ANGLE * (retry + 1)
-    reach = _SPACING * options.length * (retry + 1)
-    step = np.array([reach * np.cos(angle), reach * np.sin(angle), 2.0 * angle])
-    return np.asarray(states + step)
+def _spiral(options: DescentOptions) -> Array:
+    """Steps (retries + 1, 3) from a start to where its descents begin: farther away every time."""
+    retry = np.arange(options.retries + 1)
+    angle, reach = _GOLDEN_ANGLE * retry, _SPACING * options.length * retry
+    return np.column_stack((reach * np.cos(angle), reach * np.sin(angle), 2.0 * angle))
 
 
-def _descend_once(program: Program, begin: Array, options: DescentOptions, room: Room) -> Descent:
+def _descend_once(
+    program: Program, begin: Array, options: DescentOptions, room: Room, steps: Array
+) -> Descent:
     limits = Limits(options.truncated_steps, options.damped_steps, options.halvings, options.length)
     margin = 2.0 * program.tolerance
     if program.table is None:
@@ -128,7 +132,7 @@ def _descend_once(program: Program, begin: Array, options: DescentOptions, room:
         violations = program.violations(ends)
     else:
         ends, violations, iterations = descend_primitive(
-            program.table, program.conditions, margin, room, limits, begin
+            program.table, program.conditions, margin, room, limits, begin, steps
         )
     satisfied = program.meets(violations)
     if room.clearance > -np.inf:

@@ -54,40 +54,67 @@ def _tell_room(room: Room, head: Array, margin: float, told: Array) -> None:
 
 
 @kernel
-def descend_primitive(
-    table: Table, conditions: Array, margin: float, room: Room, limits: Limits, states: Array
-) -> tuple[Array, Array, NDArray[np.int64]]:
-    """Descend from each of ``states`` (n, 3).
+def _is_satisfied(
+    conditions: Array, margin: float, room: Room, head: Array, violations: Array
+) -> bool:
+    """Whether the best place of a descent will do; ``violations`` (m,) are those there."""
+    for row in range(len(conditions)):
+        if not violations[row] <= (0.0 if conditions[row, 2] else 0.5 * margin):
+            return False
+    if room.clearance > -inf:
+        clearance, _, _ = clearance_with_slope(room.shapes, head[BEST], head[BEST + 1])
+        return bool(clearance >= room.clearance)
+    return True
 
-    Returns the ends (n, 3), by how much each constraint is missed there (n, m), and steps (n,).
+
+@kernel
+def descend_primitive(
+    table: Table,
+    conditions: Array,
+    margin: float,
+    room: Room,
+    limits: Limits,
+    states: Array,
+    steps: Array,
+) -> tuple[Array, Array, NDArray[np.int64]]:
+    """Descend from each of ``states`` (n, 3), from each of ``steps`` (k, 3) away until one succeeds.
+
+    Returns the ends (n, 3), by how much each constraint is missed there (n, m), and the steps taken
+    (n,). Where no descent succeeds it is the end of the first.
     """
     count, constraints = len(states), len(conditions)
     ends, violations = np.empty((count, 3)), np.empty((count, constraints))
-    iterations = np.empty(count, np.int64)
+    iterations = np.zeros(count, np.int64)
     values, gradients = workspace(table)
     asked = with_room(conditions, room, margin)
     rows = len(asked)
     head, memory, told = np.empty(HEAD), np.empty((rows, MEMORY)), np.zeros((rows, 4))
+    missed = np.empty(constraints)
     for lane in range(count):
-        start(head, states[lane], limits)
-        while head[PHASE] != DONE:
-            evaluate(table, head, TRIAL, head[PHASE] == TRUNCATED, values, gradients)
+        for attempt in range(len(steps)):
+            start(head, states[lane] + steps[attempt], limits)
+            while head[PHASE] != DONE:
+                evaluate(table, head, TRIAL, head[PHASE] == TRUNCATED, values, gradients)
+                for row in range(constraints):
+                    slot = table.outputs[row]
+                    told[row, 0] = values[slot]
+                    for axis in range(3):
+                        told[row, 1 + axis] = gradients[slot, axis]
+                penalise(conditions, margin, told)
+                if rows > constraints:
+                    _tell_room(room, head, margin, told)
+                advance(head, memory, limits, told, asked)
+            head[BEST + 2] = wrapped(head[BEST + 2])
+            evaluate(table, head, BEST, head[PHASE] == TRUNCATED, values, gradients)
             for row in range(constraints):
-                slot = table.outputs[row]
-                told[row, 0] = values[slot]
-                for axis in range(3):
-                    told[row, 1 + axis] = gradients[slot, axis]
-            penalise(conditions, margin, told)
-            if rows > constraints:
-                _tell_room(room, head, margin, told)
-            advance(head, memory, limits, told, asked)
-        head[BEST + 2] = wrapped(head[BEST + 2])
-        evaluate(table, head, BEST, head[PHASE] == TRUNCATED, values, gradients)
-        for row in range(constraints):
-            violations[lane, row] = violation(conditions, row, values[table.outputs[row]])
-        for axis in range(3):
-            ends[lane, axis] = head[BEST + axis]
-        iterations[lane] = int(head[TAKEN])
+                missed[row] = violation(conditions, row, values[table.outputs[row]])
+            iterations[lane] += int(head[TAKEN])
+            is_satisfied = _is_satisfied(conditions, margin, room, head, missed)
+            if attempt == 0 or is_satisfied:
+                violations[lane] = missed
+                ends[lane] = head[BEST : BEST + 3]
+            if is_satisfied:
+                break
     return ends, violations, iterations
 
 
