@@ -75,6 +75,7 @@ def request_from_msg(request: msg.GeometricRequest) -> GeometricRequest:
         seed=request.seed,
         time_budget=request.time_budget,
         request_id=request.request_id,
+        mode=request.mode,
     )
 
 

@@ -176,3 +176,20 @@ def test_a_fault_inside_a_request_is_answered_and_outlived(
     )
     answer = node._satisfy(request, srv.SatisfyPreconditions.Response()).answer
     assert answer.status == msg.GeometricAnswer.FOUND
+
+
+def test_a_request_arrives_as_it_was_sent() -> None:
+    sent = msg.GeometricRequest(
+        preconditions='((agent r))',
+        start=[msg.AgentState(agent='r', x=1.0, y=2.0, heading=0.5)],
+        agent='r',
+        alternative=3,
+        seed=7,
+        time_budget=2.0,
+        request_id='id',
+        mode='paper',
+    )
+    request = conversions.request_from_msg(sent)
+    assert request.start == {'r': Attitude(1.0, 2.0, 0.5)}
+    assert (request.preconditions, request.agent, request.mode) == ('((agent r))', 'r', 'paper')
+    assert (request.alternative, request.seed, request.time_budget) == (3, 7, 2.0)
