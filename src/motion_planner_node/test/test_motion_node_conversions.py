@@ -137,6 +137,19 @@ def test_a_world_becomes_a_message() -> None:
     assert list(sent.objects[1].field_names) == ['x', 'y']
     assert list(sent.objects[1].field_values) == [67.0, 171.0]
     assert list(sent.robots[0].start) == []
+    assert list(sent.regions) == []
+
+
+def test_the_regions_of_the_world_are_told() -> None:
+    regions = (
+        'regions: [{name: dock, polygon: [[0, 0], [9, 0], [9, 8]]},'
+        ' {name: pond, circle: {center: [4, 5], radius: 6}}]'
+    )
+    dock, pond = conversions.world_to_msg(read_world(WORLD + regions, '')).regions
+    assert (dock.name, dock.radius) == ('dock', 0.0)
+    assert [(corner.x, corner.y) for corner in dock.polygon] == [(0, 0), (9, 0), (9, 8)]
+    assert (pond.name, len(pond.polygon)) == ('pond', 0)
+    assert (pond.center.x, pond.center.y, pond.radius) == (4.0, 5.0, 6.0)
 
 
 @pytest.fixture
