@@ -8,6 +8,7 @@ derivatives do, in variables scaled so that a radian and a length weigh alike.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -98,7 +99,7 @@ def descend(
     its retries ends where its first descent did.
     """
     begin = np.array(states, dtype=np.float64).reshape(-1, 3)
-    steps = _spiral(options)
+    steps = _spiral(options.retries, options.length)
     if program.table is not None:
         return _descend_once(program, begin, options, room, steps)
     result = _descend_once(program, begin, options, room, steps[:1])
@@ -115,11 +116,13 @@ def descend(
     return result
 
 
-def _spiral(options: DescentOptions) -> Array:
+@lru_cache(maxsize=16)
+def _spiral(retries: int, length: float) -> Array:
     """Steps (retries + 1, 3) from a start to where its descents begin: farther away every time."""
-    retry = np.arange(options.retries + 1)
-    angle, reach = _GOLDEN_ANGLE * retry, _SPACING * options.length * retry
-    return np.column_stack((reach * np.cos(angle), reach * np.sin(angle), 2.0 * angle))
+    retry = np.arange(retries + 1)
+    angle, reach = _GOLDEN_ANGLE * retry, _SPACING * length * retry
+    steps = np.column_stack((reach * np.cos(angle), reach * np.sin(angle), 2.0 * angle))
+    return np.ascontiguousarray(steps)
 
 
 def _descend_once(
