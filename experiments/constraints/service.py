@@ -29,6 +29,8 @@ from experiments.constraints.sets import AGENT, WORLD, ConstraintSet, read_map
 
 #: [s] for the node to start, which includes compiling where nothing is compiled yet.
 PATIENCE = 120.0
+#: [s] after which a request is sent again: discovery can lose the first response.
+LOST = 3.0
 #: Exchanges before the measurement begins.
 WARM_UP = 30
 
@@ -106,9 +108,11 @@ def client(namespace: str) -> Iterator[Callable[[Any, Any], Any]]:
             raise SystemExit('the motion planner did not start')
 
         def exchange(kind: Any, request: Any) -> Any:
-            future = clients[kind].call_async(request)
+            future, sent = clients[kind].call_async(request), perf_counter()
             while not future.done():
                 executor.spin_once(1.0)
+                if perf_counter() - sent > LOST:
+                    future, sent = clients[kind].call_async(request), perf_counter()
             return future.result()
 
         yield exchange
