@@ -5,7 +5,8 @@ RUN := ros2_ws/run
 TYPECHECKS := mypy $(foreach file,$(wildcard src/*/test/conftest.py),'mypy $(file)')
 
 .DEFAULT_GOAL := help
-.PHONY: help setup mission test format lint typecheck experiments experiment-mission clean
+.PHONY: help setup mission test format lint typecheck experiments experiment-mission \
+  experiment-constraints experiment-packages fuzz clean
 
 help: ## List the targets
 	@echo 'make TARGET [PYTHON=python3.12]'
@@ -37,10 +38,19 @@ lint: setup ## Check format and lint
 typecheck: setup ## Check the types
 	@status=0; for check in $(TYPECHECKS); do $(RUN) $$check || status=1; done; exit $$status
 
-experiments: experiment-mission ## Run all experiments; results in out/experiments
+experiments: experiment-mission experiment-constraints ## Run all experiments; results in out/experiments
 
 experiment-mission: setup ## Measure the rover mission: planning time and where it goes
 	@$(RUN) python -m experiments.mission.run
+
+experiment-constraints: experiment-packages ## Measure the solver of constraints beside scipy and CasADi
+	@$(RUN) python -m experiments.constraints.run
+
+experiment-packages: setup
+	@$(RUN) python -m pip install --quiet --disable-pip-version-check --no-deps -r ros2_ws/requirements/experiments.txt
+
+fuzz: setup ## Read 100,000 broken texts of geometric preconditions (some minutes)
+	@$(RUN) python -m experiments.fuzz --texts 100000
 
 clean: ## Remove what the set-up made and all caches, but not out/
 	rm -rf .venv ros2_ws/build ros2_ws/install ros2_ws/log .mypy_cache .pytest_cache .ruff_cache .hypothesis

@@ -14,16 +14,22 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Target:
-    """A figure that was to be reached: ``value`` at most ``target``."""
+    """A figure that was to be reached: ``value`` at most, or ``at_least``, ``target``."""
 
     name: str
     value: float
     target: float
+    at_least: bool = False
 
     @property
     def met(self) -> bool:
         """Whether it was reached."""
-        return self.value <= self.target
+        return self.value >= self.target if self.at_least else self.value <= self.target
+
+    def __str__(self) -> str:
+        verdict = 'met' if self.met else 'MISSED'
+        side = 'at least' if self.at_least else 'at most'
+        return f'{verdict}: {self.name} {self.value:.4g}, {side} {self.target:g}'
 
 
 def machine() -> dict[str, Any]:

@@ -122,8 +122,7 @@ def main() -> None:
     print(f'without advice the plans are {ratio:.2f} times as long')
     print(f'written: {write_results(arguments.output, arguments.seed, figures, targets)}')
     for target in targets:
-        verdict = 'met' if target.met else 'MISSED'
-        print(f'{verdict}: {target.name} {target.value:.3f}, at most {target.target:g}')
+        print(target)
 
 
 if __name__ == '__main__':

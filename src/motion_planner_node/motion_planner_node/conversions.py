@@ -20,7 +20,7 @@ from motion_planner_node.requests import (
     GeometricRequest,
 )
 from motion_planner_node.robots.motion import Attitude, GeometricState, Motion
-from motion_planner_node.world.model import Obstacle, Polygon, World
+from motion_planner_node.world.model import Obstacle, Polygon, Region, World
 
 
 def state_from_msg(states: Sequence[msg.AgentState]) -> GeometricState:
@@ -75,6 +75,7 @@ def request_from_msg(request: msg.GeometricRequest) -> GeometricRequest:
         seed=request.seed,
         time_budget=request.time_budget,
         request_id=request.request_id,
+        mode=request.mode,
     )
 
 
@@ -180,7 +181,7 @@ def diagnostics_to_msg(diagnostics: Iterable[Diagnostic]) -> list[msg.Diagnostic
 
 
 def world_to_msg(world: World) -> msg.World:
-    """The world, its objects, obstacles and robots in their order."""
+    """The world, its objects, obstacles, robots and regions in their order."""
     return msg.World(
         source=world.source,
         revision=world.revision,
@@ -197,6 +198,7 @@ def world_to_msg(world: World) -> msg.World:
             for label, item in world.objects.items()
         ],
         obstacles=[_obstacle_to_msg(obstacle) for obstacle in world.obstacles],
+        regions=[_region_to_msg(region) for region in world.regions.values()],
         robots=[
             msg.RobotModel(
                 label=label,
@@ -228,6 +230,18 @@ def descriptor_of(row: Specification) -> ParameterDescriptor:
                 FloatingPointRange(from_value=row.low, to_value=row.high)
             ]
     return descriptor
+
+
+def _region_to_msg(region: Region) -> msg.Region:
+    if isinstance(region, Polygon):
+        corners = [Point(x=float(x), y=float(y)) for x, y in region.corners]
+        return msg.Region(name=region.name, polygon=corners)
+    x, y = region.center
+    return msg.Region(
+        name=region.name,
+        center=Point(x=float(x), y=float(y)),
+        radius=float(region.radius),
+    )
 
 
 def _obstacle_to_msg(obstacle: Obstacle) -> msg.Obstacle:

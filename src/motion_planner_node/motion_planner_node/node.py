@@ -24,6 +24,7 @@ from rclpy.utilities import remove_ros_args
 from motion_planner_node import conversions
 from motion_planner_node.codes import Code
 from motion_planner_node.errors import Diagnostic, MotionPlannerError, Stopped
+from motion_planner_node.functions import PluginError, load_plugins
 from motion_planner_node.parameters import (
     ParameterError,
     Parameters,
@@ -293,10 +294,11 @@ def main(arguments: list[str] | None = None) -> int:
         return _refuse(error)
     interrupt_on_signals()
     try:
+        load_plugins()
         _serve()
     except KeyboardInterrupt:
         pass
-    except (ParameterError, MotionPlannerError) as error:
+    except (ParameterError, PluginError, MotionPlannerError) as error:
         return _refuse(error)
     finally:
         rclpy.shutdown()

@@ -7,6 +7,9 @@ from dataclasses import dataclass, field, fields
 from math import isfinite
 from typing import Any
 
+#: How destinations can be computed.
+DEFAULT_MODE, PAPER_MODE = MODES = ('default', 'paper')
+
 
 class ParameterError(ValueError):
     """A parameter has a value that it cannot have; the message is a sentence for people."""
@@ -14,7 +17,10 @@ class ParameterError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Specification:
-    """One row of the table: ``low`` and ``high`` are inclusive and absent for texts."""
+    """One row of the table: ``low`` and ``high`` are inclusive and absent for texts.
+
+    A text with ``choices`` is one of them.
+    """
 
     name: str
     default: str | int | float
@@ -23,6 +29,7 @@ class Specification:
     low: float | None = None
     high: float | None = None
     read_only: bool = False
+    choices: tuple[str, ...] = ()
 
     @property
     def kind(self) -> str:
@@ -35,7 +42,7 @@ class Specification:
         :raises ParameterError: with a sentence, when the type or the range is wrong
         """
         if isinstance(self.default, str):
-            if isinstance(value, str):
+            if isinstance(value, str) and (not self.choices or value in self.choices):
                 return value
         elif not isinstance(value, bool) and isinstance(value, int | float) and isfinite(value):
             if isinstance(self.default, float):
@@ -47,6 +54,8 @@ class Specification:
     @property
     def expected(self) -> str:
         """The values that are accepted, in words."""
+        if self.choices:
+            return f'one of {", ".join(self.choices)}'
         if self.low is None or self.high is None:
             return 'a text'
         article = 'an' if self.kind == 'integer' else 'a'
@@ -65,6 +74,7 @@ def _parameter(
     low: float | None = None,
     high: float | None = None,
     read_only: bool = False,
+    choices: tuple[str, ...] = (),
 ) -> Any:
     return field(
         default=default,
@@ -74,6 +84,7 @@ def _parameter(
             'low': low,
             'high': high,
             'read_only': read_only,
+            'choices': choices,
         },
     )
 
@@ -93,6 +104,18 @@ class Parameters:
         unit='s',
         low=0.001,
         high=3600.0,
+    )
+    mode: str = _parameter(
+        DEFAULT_MODE,
+        'how destinations are computed: compiled descents that keep out of obstacles, or the '
+        "paper's Algorithm 1 to the letter (docs/solver.md)",
+        choices=MODES,
+    )
+    paper_tries: int = _parameter(
+        64, 'maxTries of Algorithm 1: descents of a request in mode paper', low=1, high=100000
+    )
+    paper_steps: int = _parameter(
+        100, 'maxK of Algorithm 1: steps of one descent in mode paper', low=1, high=100000
     )
     destinations: int = _parameter(
         32, 'destination attitudes looked for in one round of restarts', low=1, high=4096
@@ -163,7 +186,7 @@ def markdown() -> str:
     ]
     for row in specifications():
         default = f'{row.default:g}' if isinstance(row.default, float) else repr(row.default)
-        span = '' if row.low is None else f'{row.low:g} to {row.high:g}'
+        span = ', '.join(row.choices) if row.low is None else f'{row.low:g} to {row.high:g}'
         unit = f' [{row.unit}]' if row.unit else ''
         fixed = '; fixed once the node runs' if row.read_only else ''
         lines.append(

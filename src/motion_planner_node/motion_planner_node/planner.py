@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from motion_planner_node.advice.advisor import Advisor
-from motion_planner_node.errors import MotionPlannerError, Stopped
-from motion_planner_node.language import Preconditions, parse
-from motion_planner_node.parameters import Parameters
+from motion_planner_node.errors import Diagnostic, MotionPlannerError, Stopped
+from motion_planner_node.language import Preconditions, check, parse
+from motion_planner_node.parameters import PAPER_MODE, Parameters
 from motion_planner_node.planning import answers
 from motion_planner_node.planning.cache import Cache
 from motion_planner_node.planning.check import CheckResult, check_text
 from motion_planner_node.planning.ground import Ground
+from motion_planner_node.planning.paper_stream import PaperStream
 from motion_planner_node.planning.problem import (
     Problem,
     check_request,
@@ -58,6 +59,7 @@ class MotionPlanner:
         self._grounds: dict[CarModel, Ground] = {}
         size = self._parameters.cache_size
         self._texts: Cache[str, Preconditions] = Cache(size)
+        self._remarks: Cache[str, tuple[Diagnostic, ...]] = Cache(size)
         self._streams: Cache[object, Stream] = Cache(size)
         self._advisor = Advisor(world, self._parameters, self._parsed, self._ground)
 
@@ -72,7 +74,10 @@ class MotionPlanner:
             check_request(self.world, request)
             state = checked_state(self.world, request.start)
             preconditions = self._parsed(request.preconditions)
-            problem = read_problem(self.world, preconditions, state, request.agent)
+            remarks = self._remarks.get(
+                request.preconditions, lambda: check(preconditions, self.world)
+            )
+            problem = read_problem(self.world, preconditions, state, request.agent, remarks)
             if problem.program.assigns:
                 return answers.assigned(problem, self._ground, request.alternative)
         except MotionPlannerError as error:
@@ -91,9 +96,11 @@ class MotionPlanner:
         should_stop: ShouldStop,
     ) -> GeometricAnswer:
         state = tuple(problem.state.items())
-        key = (request.preconditions, problem.agent, state, request.seed)
+        mode = request.mode or self._parameters.mode
+        key = (request.preconditions, problem.agent, state, request.seed, mode)
+        stream_of = PaperStream if mode == PAPER_MODE else Stream
         stream = self._streams.get(
-            key, lambda: Stream(problem, ground, self._parameters, request.seed)
+            key, lambda: stream_of(problem, ground, self._parameters, request.seed)
         )
         try:
             found = stream.find(request.alternative, should_stop)
@@ -141,3 +148,5 @@ def warm_up() -> None:
     text = '((agent robot)(object goal)(distance(robot, goal) <= 5))'
     planner.satisfy(GeometricRequest(text, {agent: here}))
     planner.advise(AdviceRequest((text,), {agent: here}))
+    seen = f'{text[:-1]}(visible(robot, goal))(clearance(robot) >= 2))'
+    planner.satisfy(GeometricRequest(seen, {agent: here}))

@@ -12,7 +12,10 @@ from motion_planner_node.robots.motion import Attitude, GeometricState, Motion
 
 @dataclass(frozen=True, slots=True)
 class GeometricRequest:
-    """Can these preconditions be met from this state, and how does the robot get there?"""
+    """Can these preconditions be met from this state, and how does the robot get there?
+
+    ``mode`` is how destinations are computed, as the parameter of that name; empty for its value.
+    """
 
     preconditions: str
     start: GeometricState = field(default_factory=dict)
@@ -23,6 +26,7 @@ class GeometricRequest:
     seed: int = 0
     time_budget: float = 0.0
     request_id: str = ''
+    mode: str = ''
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from motion_planner_node.functions import FUNCTIONS, Dual, Place
+from motion_planner_node.functions import FUNCTIONS, Array, Dual, Place
 
 COORDINATES = st.floats(min_value=-800.0, max_value=800.0)
 HEADINGS = st.floats(min_value=-3.1, max_value=3.1)
@@ -81,6 +81,46 @@ def test_arithmetic_has_the_slopes_of_finite_differences(
     found = gradient(function(*dual_state(x, y, heading)))
     expected = finite_differences(function, x, y, heading)
     assert found == pytest.approx(expected, rel=1e-4, abs=1e-3)
+
+
+@settings(max_examples=100, deadline=None)
+@given(COORDINATES, COORDINATES, HEADINGS)
+def test_primitives_have_the_slopes_of_finite_differences(
+    x: float, y: float, heading: float
+) -> None:
+    assume(min(abs(x - y), abs(heading - y), abs(x), abs(x - heading)) > 1e-3)
+
+    def function(x: Dual, y: Dual, heading: Dual) -> Dual:
+        return (
+            heading.sin() * x + heading.cos() * y + abs(x) + x.minimum(y) + heading.maximum(y) * x
+        )
+
+    found = gradient(function(*dual_state(x, y, heading)))
+    expected = finite_differences(function, x, y, heading)
+    assert found == pytest.approx(expected, rel=1e-4, abs=1e-3)
+
+
+class Product:
+    """``x * y`` as a field."""
+
+    def values(self, *arguments: Array) -> Array:
+        return arguments[0] * arguments[1]
+
+    def slopes(self, *arguments: Array) -> tuple[Array, Array]:
+        return arguments[1], arguments[0]
+
+    def bounds(self, *ranges: tuple[Array, Array]) -> tuple[Array, Array]:
+        raise NotImplementedError
+
+
+def test_an_opaque_operation_follows_the_chain_rule() -> None:
+    x, y, heading = dual_state(2.0, 3.0, 0.5)
+    found = (x + heading).opaque(Product(), y * heading)
+    assert found.value[0] == pytest.approx(2.5 * 1.5)
+    assert gradient(found) == pytest.approx([1.5, 2.5 * 0.5, 1.5 + 2.5 * 3.0])
+    constant = Dual.constant(2.0).opaque(Product(), Dual.constant(3.0))
+    assert float(constant.value) == 6.0
+    assert constant.gradient is None
 
 
 @settings(max_examples=150, deadline=None)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from motion_planner_node.codes import Code
 from motion_planner_node.errors import MotionPlannerError
 from motion_planner_node.language import check, parse
-from motion_planner_node.world.model import Bounds, CarModel, World, WorldObject
+from motion_planner_node.world.model import Bounds, CarModel, Circle, World, WorldObject
 
 WORLD = World(
     source='',
@@ -20,22 +20,44 @@ WORLD = World(
         for label in ('location0', 'location1')
     },
     obstacles=(),
-    robots={'rover0': CarModel('rover0', 8.0, 0.5, 5.0, 2.0)},
+    robots={label: CarModel(label, 8.0, 0.5, 5.0, 2.0) for label in ('rover0', 'rover1')},
+    regions={'dock': Circle('dock', (50.0, 50.0), 20.0)},
 )
 STATED = '(agent rover0)(object location1)'
+IN_DOCK = STATED + '(region dock)'
 VARIABLE = '(agent ?r)(object ?o)'
 
 
 @pytest.mark.parametrize(
     ('text', 'code', 'words'),
     [
-        ('(agent rover1)', Code.UNKNOWN_AGENT, "did you mean 'rover0'"),
+        ('(agent rover2)', Code.UNKNOWN_AGENT, "did you mean 'rover1'"),
         ('(agent location1)', Code.UNKNOWN_AGENT, 'location1'),
         ('(object location9)', Code.UNKNOWN_OBJECT, "unknown object 'location9'"),
         ('(robot rover0)', Code.INVALID_PRECONDITIONS, 'known: agent, object'),
         ('(object pi)', Code.INVALID_PRECONDITIONS, 'a number, not a label'),
         ('(agent ?a)(object ?a)', Code.INVALID_PRECONDITIONS, 'an agent and an object'),
         ('(object location1)(1 = 1)', Code.INVALID_PRECONDITIONS, '(agent ...)'),
+        ('(region dok)', Code.UNKNOWN_OBJECT, "unknown region 'dok' (did you mean 'dock'?)"),
+        ('(object ?a)(region ?a)', Code.INVALID_PRECONDITIONS, 'to be an object and a region'),
+        (IN_DOCK + '(inside(rover0, location1))', Code.INVALID_PRECONDITIONS, 'wants a region'),
+        (IN_DOCK + '(inside(dock, dock))', Code.INVALID_PRECONDITIONS, 'wants an agent'),
+        (IN_DOCK + '(distance(rover0, dock) = 1)', Code.INVALID_PRECONDITIONS, 'is a region'),
+        (IN_DOCK + '(dock.x = 1)', Code.UNKNOWN_PROPERTY, "property of 'dock'"),
+        (IN_DOCK + '(dock = 1)', Code.INVALID_PRECONDITIONS, 'not a number'),
+        (IN_DOCK + '(inside(rover0, dock) = 1)', Code.INVALID_PRECONDITIONS, 'stands alone'),
+        (IN_DOCK + '(1 + inside(rover0, dock) = 1)', Code.INVALID_PRECONDITIONS, 'a condition'),
+        (IN_DOCK + '(not(inside(rover0, dock)) = 1)', Code.INVALID_PRECONDITIONS, 'stands alone'),
+        (IN_DOCK + '(not(rover0.x))', Code.INVALID_PRECONDITIONS, 'takes one condition'),
+        (STATED + '(insid(rover0, location1))', Code.INVALID_PRECONDITIONS, "'inside'"),
+        (
+            STATED + '(not(facing(rover0, location1)))',
+            Code.INVALID_PRECONDITIONS,
+            'would exclude a single value',
+        ),
+        (STATED + '(rover0 != location1)', Code.INVALID_PRECONDITIONS, 'not a number'),
+        (STATED + '(min(rover0.x) < 5)', Code.INVALID_PRECONDITIONS, 'at least 2 arguments, not 1'),
+        (STATED + '(abs(1, 2) < 5)', Code.INVALID_PRECONDITIONS, '1 argument, not 2'),
         (STATED + '(distanc(rover0, location1) = 5)', Code.UNKNOWN_FUNCTION, "'distance'"),
         (STATED + '(setPropety(rover0.x, 5))', Code.INVALID_PRECONDITIONS, "'setProperty'"),
         (STATED + '(rover0.z = 5)', Code.UNKNOWN_PROPERTY, 'known: heading, x, y'),

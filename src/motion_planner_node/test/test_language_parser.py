@@ -13,6 +13,7 @@ from motion_planner_node.language import (
     MAXIMUM_ITEMS,
     MAXIMUM_SIZE,
     Command,
+    Condition,
     Constraint,
     Preconditions,
     Statement,
@@ -60,13 +61,15 @@ EXPRESSIONS = st.recursive(
     max_leaves=12,
 )
 CONSTRAINTS = st.builds(
-    Constraint, EXPRESSIONS, st.sampled_from(('<', '<=', '>', '>=', '=')), EXPRESSIONS
+    Constraint, EXPRESSIONS, st.sampled_from(('<', '<=', '>', '>=', '=', '!=')), EXPRESSIONS
 )
-COMMANDS = st.builds(Command, NAMES, st.lists(EXPRESSIONS, max_size=3).map(tuple))
+ARGUMENTS = st.lists(EXPRESSIONS, max_size=3).map(tuple)
+COMMANDS = st.builds(Command, st.sampled_from(('setProperty', 'setProprety')), ARGUMENTS)
+CONDITIONS = st.builds(Condition, st.builds(Call, NAMES, ARGUMENTS))
 PRECONDITIONS = st.builds(
     Preconditions,
     st.lists(st.builds(Statement, NAMES, LABELS), max_size=3).map(tuple),
-    st.lists(CONSTRAINTS | COMMANDS, max_size=4).map(tuple),
+    st.lists(CONSTRAINTS | COMMANDS | CONDITIONS, max_size=4).map(tuple),
 )
 
 
@@ -147,6 +150,7 @@ def test_texts_that_mean_the_same(text: str, same: str) -> None:
 
 def test_a_hyphen_before_a_letter_belongs_to_the_name() -> None:
     (constraint,) = parse('f(base-camp) = pi').constraints
+    assert isinstance(constraint, Constraint)
     assert constraint.left == Call('f', (Label('base-camp'),))
 
 
@@ -204,10 +208,10 @@ def test_any_text_is_read_or_refused_with_a_place(text: str) -> None:
     try:
         parsed = parse(text)
     except MotionPlannerError as error:
-        (diagnostic,) = error.diagnostics
-        assert diagnostic.line >= 1
-        assert diagnostic.column >= 1
-        assert diagnostic.message.isprintable()
-        assert diagnostic.text.isprintable()
+        for diagnostic in error.diagnostics:
+            assert diagnostic.line >= 1
+            assert diagnostic.column >= 1
+            assert diagnostic.message.isprintable()
+            assert diagnostic.text.isprintable()
     else:
         assert parse(to_text(parsed)) == parsed

@@ -137,6 +137,19 @@ def test_a_world_becomes_a_message() -> None:
     assert list(sent.objects[1].field_names) == ['x', 'y']
     assert list(sent.objects[1].field_values) == [67.0, 171.0]
     assert list(sent.robots[0].start) == []
+    assert list(sent.regions) == []
+
+
+def test_the_regions_of_the_world_are_told() -> None:
+    regions = (
+        'regions: [{name: dock, polygon: [[0, 0], [9, 0], [9, 8]]},'
+        ' {name: pond, circle: {center: [4, 5], radius: 6}}]'
+    )
+    dock, pond = conversions.world_to_msg(read_world(WORLD + regions, '')).regions
+    assert (dock.name, dock.radius) == ('dock', 0.0)
+    assert [(corner.x, corner.y) for corner in dock.polygon] == [(0, 0), (9, 0), (9, 8)]
+    assert (pond.name, len(pond.polygon)) == ('pond', 0)
+    assert (pond.center.x, pond.center.y, pond.radius) == (4.0, 5.0, 6.0)
 
 
 @pytest.fixture
@@ -176,3 +189,20 @@ def test_a_fault_inside_a_request_is_answered_and_outlived(
     )
     answer = node._satisfy(request, srv.SatisfyPreconditions.Response()).answer
     assert answer.status == msg.GeometricAnswer.FOUND
+
+
+def test_a_request_arrives_as_it_was_sent() -> None:
+    sent = msg.GeometricRequest(
+        preconditions='((agent r))',
+        start=[msg.AgentState(agent='r', x=1.0, y=2.0, heading=0.5)],
+        agent='r',
+        alternative=3,
+        seed=7,
+        time_budget=2.0,
+        request_id='id',
+        mode='paper',
+    )
+    request = conversions.request_from_msg(sent)
+    assert request.start == {'r': Attitude(1.0, 2.0, 0.5)}
+    assert (request.preconditions, request.agent, request.mode) == ('((agent r))', 'r', 'paper')
+    assert (request.alternative, request.seed, request.time_budget) == (3, 7, 2.0)

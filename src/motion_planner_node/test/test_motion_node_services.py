@@ -308,3 +308,24 @@ def test_a_signal_stops_the_node_cleanly(number: signal.Signals) -> None:
         output, _ = process.communicate(timeout=DEADLINE)
     assert process.returncode == 0
     assert 'Traceback' not in output
+
+
+def test_a_broken_package_of_functions_keeps_the_node_from_starting(tmp_path: Path) -> None:
+    information = tmp_path / 'broken-1.dist-info'
+    information.mkdir()
+    (information / 'METADATA').write_text('Metadata-Version: 2.1\nName: broken\nVersion: 1\n')
+    (information / 'entry_points.txt').write_text(
+        '[motion_planner_node.functions]\nsensors = no_such_module:FUNCTIONS\n'
+    )
+    paths = [str(tmp_path), str(PACKAGE), os.environ.get('PYTHONPATH', '')]
+    done = subprocess.run(
+        [sys.executable, '-m', 'motion_planner_node.node'],
+        env=os.environ | {'PYTHONPATH': os.pathsep.join(paths), 'ROS_DOMAIN_ID': str(DOMAIN)},
+        capture_output=True,
+        text=True,
+        timeout=DEADLINE,
+        check=False,
+    )
+    assert done.returncode == 2
+    assert 'the plugin sensors (no_such_module:FUNCTIONS) cannot be loaded' in done.stderr
+    assert 'Traceback' not in done.stdout + done.stderr

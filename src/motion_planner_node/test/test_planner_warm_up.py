@@ -44,6 +44,16 @@ planner.advise(AdviceRequest(tuple(map(text, range(1, 9))), state))
 for k in range(1, 9):
     answer = planner.satisfy(GeometricRequest(text(k), state))
     state = answer.end or state
+seen = text(1)[:-1] + '(visible(rover0, location1))(clearance(rover0) >= 10))'
+planner.satisfy(GeometricRequest(seen, state))
+far = '(agent rover0)(object location1)(object location2)(distance(rover0, location1) <= 9)'
+for more in (
+    '(distance(rover0, location2) <= 9)',
+    '(rel_angle(rover0, location1) = cos-and-sin(0))(rover0.heading > 4)',
+    '(rover0.x * rover0.y = rover0.heading * 1e6)',
+):
+    planner.satisfy(GeometricRequest(far + more, state))
+planner.satisfy(GeometricRequest(text(1), state, mode='paper'))
 late = {key: count for key, count in compiled().items() if count != before.get(key)}
 assert before, 'no kernels were found'
 assert not late, late

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from motion_planner_node.language import parse
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.satisfaction import (
+    DescentOptions,
     Program,
     compile_program,
     descend,
@@ -19,7 +20,6 @@ from motion_planner_node.satisfaction import (
     from_start,
     restarts,
 )
-from motion_planner_node.satisfaction.penalty import penalty
 from motion_planner_node.world.model import Bounds, CarModel, World, WorldObject
 
 PLACES = {'a': (67.0, 171.0), 'b': (206.0, 542.0), 'c': (362.0, 350.0), 'o': (50.0, 50.0)}
@@ -60,21 +60,6 @@ def test_the_paper_s_step_turns_the_robot_without_moving_it() -> None:
     descent = from_start(program(TAKE_PHOTO), START)
     assert descent.states[0][:2].tolist() == [20.0, 100.0]
     assert off(float(descent.states[0][2]), 20.0, 100.0, 'a', math.pi / 2.0) < 1e-9
-
-
-@settings(max_examples=60, deadline=None)
-@given(st.floats(0.0, 800.0), st.floats(0.0, 600.0), st.floats(-3.0, 3.0))
-def test_the_gradient_is_that_of_the_criterion(x: float, y: float, heading: float) -> None:
-    compiled = program(TAKE_PHOTO + '(r.x * 2 >= 900)(distance(r, b) / 3 = r.y + r.heading)')
-    state = np.array([[x, y, heading]])
-    gradient = penalty(compiled, state, derivatives='full').gradient[:, 0]
-    for index in range(3):
-        step = np.zeros((1, 3))
-        step[0, index] = 1e-5
-        above = penalty(compiled, state + step, derivatives='none').total[0]
-        below = penalty(compiled, state - step, derivatives='none').total[0]
-        slope = (above - below) / 2e-5
-        assert gradient[index] == pytest.approx(slope, rel=1e-3, abs=1e-2)
 
 
 @settings(max_examples=60, deadline=None)
@@ -119,11 +104,42 @@ def coupled_sets() -> dict[str, str]:
 
 
 @pytest.mark.parametrize('name', coupled_sets())
-def test_nine_of_ten_starts_satisfy_coupled_sets(name: str) -> None:
+def test_all_starts_satisfy_coupled_sets(name: str) -> None:
+    compiled = program(coupled_sets()[name])
+    rng = np.random.default_rng(8)
+    starts = rng.uniform([0.0, 0.0, -math.pi], [800.0, 600.0, math.pi], (200, 3))
+    descent = descend(compiled, starts)
+    assert descent.satisfied.mean() >= 0.995
+    for batch in range(0, 192, 64):
+        assert descent.satisfied[batch : batch + 64].any()
+
+
+def test_near_collinear_trilateration_is_solved_from_anywhere() -> None:
+    x, y = 300.0, 140.0
+    places = {'p': (100.0, 100.0), 'q': (300.0, 101.0), 's': (500.0, 100.0)}
+    objects = {label: WorldObject(label, {'x': u, 'y': v}) for label, (u, v) in places.items()}
+    world = World('', '', BOUNDS, objects, (), WORLD.robots)
+    text = '(agent r)' + ''.join(f'(object {label})' for label in places)
+    for label, (u, v) in places.items():
+        text += f'(distance(r, {label}) = {math.hypot(u - x, v - y)!r})'
+    compiled = compile_program(parse(text), world, {'r': START})
+    starts = np.random.default_rng(0).uniform([0.0, 0.0, -3.0], [800.0, 600.0, 3.0], (256, 3))
+    descent = descend(compiled, starts)
+    assert descent.satisfied.mean() > 0.98
+    assert descent.states[descent.satisfied][:, :2] == pytest.approx(
+        np.array([[x, y]] * int(descent.satisfied.sum())), abs=1e-4
+    )
+    once = descend(compiled, starts, DescentOptions(retries=0))
+    assert once.satisfied.mean() < 0.8
+    assert (descent.states[once.satisfied] == once.states[once.satisfied]).all()
+
+
+@pytest.mark.parametrize('name', coupled_sets())
+def test_nine_of_ten_descents_need_no_retry(name: str) -> None:
     compiled = program(coupled_sets()[name])
     rng = np.random.default_rng(7)
     starts = rng.uniform([0.0, 0.0, -math.pi], [800.0, 600.0, math.pi], (200, 3))
-    descent = descend(compiled, starts)
+    descent = descend(compiled, starts, DescentOptions(retries=0))
     assert descent.satisfied.mean() >= 0.9
     assert (compiled.violations(descent.states)[descent.satisfied] <= 1.1e-9).all()
 

@@ -173,7 +173,10 @@ def test_constraints_about_constants_are_evaluated() -> None:
         ('(distance(rover0, location0) >= 5000)', 'nowhere on the map: missed by 40'),
         (
             '(rover0.x > 0)(distance(rover0, location0) < 9)(distance(location1, rover0) < 9)',
-            'distance(rover0, location0) < 9 and distance(location1, rover0) < 9 exclude',
+            (
+                'distance(rover0, location0) < 9 and distance(location1, rover0) < 9, '
+                'but location0 and location1 are 158.1 apart'
+            ),
         ),
         ('(rover0.x > 800)', 'nowhere'),
         ('(location0.x = 21)', 'nowhere'),

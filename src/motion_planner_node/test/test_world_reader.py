@@ -213,3 +213,42 @@ def test_any_text_is_a_world_or_an_error(text: str) -> None:
     assert found.code is Code.NO_WORLD
     assert found.diagnostics[0].line >= 1
     assert found.diagnostics[0].column >= 1
+
+
+REGIONS = """\
+regions:
+  - {name: dock, polygon: [[60, 0], [80, 0], [80, 15], [60, 15]]}
+  - {name: pond, circle: {center: [20, 40], radius: 9}}
+"""
+
+
+def test_regions_are_read_and_belong_to_the_revision() -> None:
+    world = read_world(WORLD + REGIONS, 'world.yaml')
+    assert world.regions == {
+        'dock': Polygon('dock', ((60, 0), (80, 0), (80, 15), (60, 15))),
+        'pond': Circle('pond', (20, 40), 9),
+    }
+    without = read_world(WORLD, 'world.yaml')
+    assert without.regions == {}
+    assert world.revision != without.revision
+    wider = read_world(WORLD + REGIONS.replace('radius: 9', 'radius: 10'), 'world.yaml')
+    assert wider.revision != world.revision
+
+
+@pytest.mark.parametrize(
+    ('old', 'new', 'line', 'words'),
+    [
+        ('name: pond, ', '', 13, 'region 2 lacks name'),
+        ('name: pond', 'name: dock', 13, 'dock is the name of another region, too'),
+        ('name: pond', 'name: tree', 13, 'tree is the name of an object or a robot, too'),
+        ('circle: {center: [20, 40], radius: 9}', '', 13, 'needs either polygon or circle'),
+        ('radius: 9', 'radius: 0', 13, 'pond: radius has to be at least 0.001'),
+        (', [80, 15], [60, 15]', '', 12, 'dock: a polygon needs 3 corners'),
+        ('- {name: dock', '- {colour: red, name: dock', 12, 'colour'),
+    ],
+)
+def test_faults_of_regions_are_told(old: str, new: str, line: int, words: str) -> None:
+    assert old in REGIONS
+    (fault,) = faults(WORLD + REGIONS.replace(old, new, 1))
+    assert fault.line == line
+    assert words in fault.message

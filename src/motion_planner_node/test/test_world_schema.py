@@ -115,9 +115,32 @@ def test_reader_and_schema_refuse_the_same(old: str, new: str) -> None:
     assert not agree(ROVER.replace(old, new, 1))
 
 
+DOCK = 'regions: [{name: dock, polygon: [[0, 0], [9, 0], [9, 9]]}]\n'
+
+
+@pytest.mark.parametrize(
+    ('old', 'new'),
+    [
+        ('name: dock, ', ''),
+        ('name: dock', 'name: pi'),
+        ('name: dock', 'name: dock-1'),
+        ('name: dock', 'name: 7'),
+        ('polygon: [[0, 0], [9, 0], [9, 9]]', ''),
+        ('polygon: [[0, 0], [9, 0], [9, 9]]', 'polygon: [[0, 0], [9, 0]]'),
+        ('}]', ', circle: {center: [1, 2], radius: 3}}]'),
+        ('[{name: dock, polygon: [[0, 0], [9, 0], [9, 9]]}]', '{dock: {}}'),
+    ],
+)
+def test_reader_and_schema_refuse_the_same_regions(old: str, new: str) -> None:
+    assert old in DOCK
+    assert not agree(ROVER + DOCK.replace(old, new, 1))
+
+
 def test_reader_and_schema_accept_the_same() -> None:
     assert agree('bounds: [0, 0, 1, 1]')
-    assert agree('bounds: [0, 0, 1, 1]\nobjects:\nobstacles:\nrobots:\n')
+    assert agree('bounds: [0, 0, 1, 1]\nobjects:\nobstacles:\nrobots:\nregions:\n')
+    assert agree(ROVER + DOCK)
+    assert agree(ROVER + 'regions: [{name: dock, circle: {center: [1, 2], radius: 3}}]\n')
     assert agree(ROVER.replace('{x: 20, y: 20}', '{x: 20, y: 20, height: 3}'))
     assert agree(ROVER + '    start: {x: 20, y: 20, heading: 7}\n')
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
-from motion_planner_node.functions.dual import Dual
+from motion_planner_node.robots.motion import COMPONENTS
 
 
 class Kind(Enum):
@@ -17,20 +17,30 @@ class Kind(Enum):
     ANGLE = 'an angle'
     PLACE = 'an agent or an object'
     AGENT = 'an agent'
-
-
-#: Components of the state vector by which a derivative can be taken, in the order of gradients.
-COMPONENTS = ('x', 'y', 'heading')
+    REGION = 'a region'
+    CONDITION = 'a condition'
 
 
 @dataclass(frozen=True, slots=True)
 class Function:
     """A function of the library (Table 2 of the paper).
 
-    ``value`` takes a ``Scalar`` for each NUMBER (an ANGLE is one too, in radians, modulo 2 pi) and
-    a ``Place`` for each PLACE or AGENT, and returns a ``Scalar``. Its derivatives follow by
-    forward-mode differentiation; ``derived_codes`` names the components whose derivatives the
-    paper's truncated gradient keeps.
+    ``value`` takes a ``Scalar`` for each NUMBER or ANGLE (in radians, modulo 2 pi), a ``Place`` for
+    each PLACE or AGENT and a ``Field`` for each REGION, and returns a ``Scalar``. Its derivatives
+    follow by forward-mode differentiation.
+
+    Attributes:
+        name: as constraints spell it
+        arguments: kinds of the arguments
+        result: NUMBER or ANGLE, what ``value`` returns
+        value: the function itself, over generic scalars
+        description: a sentence for people
+        derived_codes: the components whose derivatives the paper's truncated gradient keeps
+        symmetric: whether the order of the arguments makes no difference
+        condition: for a function that stands alone as a constraint, how ``value`` has to compare
+            with zero: ``<=``, ``>=`` or ``=``
+        repeats: whether more arguments of the last kind may follow
+        sees_world: whether ``value`` takes the ``Surroundings`` before its other arguments
     """
 
     name: str
@@ -40,14 +50,25 @@ class Function:
     description: str
     derived_codes: tuple[str, ...] = COMPONENTS
     symmetric: bool = False
+    condition: str = ''
+    repeats: bool = False
+    sees_world: bool = False
+
+    @property
+    def gives(self) -> Kind:
+        """What a call is: CONDITION for what stands alone, else ``result``."""
+        return Kind.CONDITION if self.condition else self.result
+
+    def kinds(self, count: int) -> tuple[Kind, ...] | None:
+        """Kinds of ``count`` arguments, None if the function does not take so many."""
+        more = count - len(self.arguments)
+        if more and not (self.repeats and more > 0):
+            return None
+        return self.arguments + self.arguments[-1:] * more
 
     def truncated(self, *arguments: Any) -> Any:
-        """``value`` of duals with only the derivatives of ``derived_codes``, as in Table 2."""
+        """``value`` with only the derivatives of ``derived_codes``, as in Table 2."""
         result = self.value(*arguments)
-        if result.gradient is None or self.derived_codes == COMPONENTS:
+        if self.derived_codes == COMPONENTS:
             return result
-        gradient = result.gradient.copy()
-        for index, component in enumerate(COMPONENTS):
-            if component not in self.derived_codes:
-                gradient[index] = 0.0
-        return Dual(result.value, gradient)
+        return result.restricted(tuple(name in self.derived_codes for name in COMPONENTS))

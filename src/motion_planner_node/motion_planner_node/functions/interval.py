@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from motion_planner_node.functions.field import Field
 
 Array = NDArray[np.float64]
 
@@ -13,6 +16,9 @@ _RELATIVE = 4.0 * np.finfo(np.float64).eps
 
 #: More than a product loses when it underflows.
 _SMALLEST = float(np.finfo(np.float64).tiny)
+
+#: Beyond this [rad] nothing is said of the sine and cosine of an angle.
+_LARGEST_ANGLE = 1e9
 
 
 class Interval:
@@ -64,6 +70,10 @@ class Interval:
         """``factor`` times the number."""
         return self * Interval.constant(factor)
 
+    def restricted(self, _kept: Sequence[bool]) -> Interval:
+        """The same bounds: intervals carry no derivatives."""
+        return self
+
     def hypot(self, other: Interval) -> Interval:
         """Length of the vector (self, other)."""
         return _outward(
@@ -73,9 +83,73 @@ class Interval:
         )
 
     def arctan2(self, abscissa: Interval) -> Interval:
-        """Any direction [rad]: nothing is known of a box that the vector's origin may lie in."""
-        shape = np.broadcast(self.low, abscissa.low).shape
-        return Interval(np.full(shape, -np.pi), np.full(shape, np.pi))
+        """Direction [rad] of the vector (abscissa, self) in [-pi, pi]."""
+        found = self.direction(abscissa)
+        beyond = found.high > np.pi
+        return Interval(
+            np.where(beyond, -np.pi, np.maximum(found.low, -np.pi)),
+            np.where(beyond, np.pi, found.high),
+        )
+
+    def direction(self, abscissa: Interval) -> Interval:
+        """Direction [rad] of the vector (abscissa, self) modulo 2 pi, beyond pi where need be.
+
+        The extremes are at corners of the box of vectors, unless the origin is inside it.
+        """
+        left, right = abscissa.low, abscissa.high
+        low, high = self.low + 0.0, self.high + 0.0
+        corners = [np.arctan2(y, x) for y in (low, high) for x in (left, right)]
+        across = (low < 0.0) & (high >= 0.0) & (left < 0.0)
+        turned = [np.where(across & (c < 0.0), c + 2.0 * np.pi, c) for c in corners]
+        result = _outward(np.minimum.reduce(turned), np.maximum.reduce(turned))
+        whole = across & (right >= 0.0)
+        limit = np.where(across, 2.0 * np.pi, np.pi)
+        return Interval(
+            np.where(whole, -np.pi, np.maximum(result.low, -np.pi)),
+            np.where(whole, np.pi, np.minimum(result.high, limit)),
+        )
+
+    def sin(self) -> Interval:
+        """Sine of an angle [rad]."""
+        return self._wave(np.sin, 0.5 * np.pi)
+
+    def cos(self) -> Interval:
+        """Cosine of an angle [rad]."""
+        return self._wave(np.cos, 0.0)
+
+    def __abs__(self) -> Interval:
+        return Interval(self._least_magnitude(), self._greatest_magnitude())
+
+    def minimum(self, other: Interval) -> Interval:
+        """The smaller number."""
+        return Interval(np.minimum(self.low, other.low), np.minimum(self.high, other.high))
+
+    def maximum(self, other: Interval) -> Interval:
+        """The larger number."""
+        return Interval(np.maximum(self.low, other.low), np.maximum(self.high, other.high))
+
+    def opaque(self, field: Field, *others: Interval) -> Interval:
+        """``field`` of this number and ``others``."""
+        arguments = (self, *others)
+        lows = np.broadcast_arrays(*(a.low for a in arguments), *(a.high for a in arguments))
+        flat = [np.ascontiguousarray(bound, dtype=np.float64).ravel() for bound in lows]
+        low, high = field.bounds(*zip(flat[: len(arguments)], flat[len(arguments) :], strict=True))
+        shape = lows[0].shape
+        return _outward(low.reshape(shape), high.reshape(shape))
+
+    def _wave(self, function: np.ufunc, crest: float) -> Interval:
+        """A wave of period 2 pi between -1 and 1 that is 1 at ``crest``, and -1 half a turn on."""
+        ends = function(self.low), function(self.high)
+        low, high = np.minimum(*ends), np.maximum(*ends)
+        turns = [(end - crest) / (2.0 * np.pi) for end in (self.low, self.high)]
+        slack = 1e-15 * (1.0 + np.abs(turns[0]) + np.abs(turns[1]))
+        first, last = turns[0] - slack, turns[1] + slack
+        unknown = ~(np.maximum(np.abs(self.low), np.abs(self.high)) < _LARGEST_ANGLE)
+        high = np.where(unknown | (np.ceil(first) <= np.floor(last)), 1.0, high)
+        trough = np.ceil(first - 0.5) <= np.floor(last - 0.5)
+        low = np.where(unknown | trough, -1.0, low)
+        result = _outward(low, high, at_least=-1.0)
+        return Interval(result.low, np.minimum(result.high, 1.0))
 
     def _least_magnitude(self) -> Array:
         return np.maximum(np.maximum(self.low, -self.high), 0.0)

@@ -6,10 +6,12 @@ from motion_planner_node.language.parser import (
     MAXIMUM_ITEMS,
     MAXIMUM_SIZE,
     parse,
+    read,
 )
 from motion_planner_node.language.printer import number_to_text, to_text
 from motion_planner_node.language.syntax import (
     Command,
+    Condition,
     Constraint,
     Expression,
     Preconditions,
@@ -21,6 +23,7 @@ __all__ = [
     'MAXIMUM_ITEMS',
     'MAXIMUM_SIZE',
     'Command',
+    'Condition',
     'Constraint',
     'Expression',
     'Preconditions',
@@ -28,5 +31,6 @@ __all__ = [
     'check',
     'number_to_text',
     'parse',
+    'read',
     'to_text',
 ]

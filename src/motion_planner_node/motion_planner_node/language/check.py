@@ -9,12 +9,15 @@ from math import isfinite
 from motion_planner_node.codes import Code
 from motion_planner_node.errors import Diagnostic, Severity
 from motion_planner_node.functions import COMPONENTS, FUNCTIONS, Kind
+from motion_planner_node.language.conditions import NOT, comparison, unwrapped
 from motion_planner_node.language.contradictions import contradictions
 from motion_planner_node.language.linear import linear
 from motion_planner_node.language.printer import to_text
 from motion_planner_node.language.syntax import (
+    COMMANDS,
     Call,
     Command,
+    Condition,
     Constraint,
     Expression,
     Label,
@@ -26,15 +29,18 @@ from motion_planner_node.language.syntax import (
     Statement,
     children,
 )
+from motion_planner_node.robots.motion import ANGULAR_COMPONENTS
 from motion_planner_node.world.model import World
 
 #: Comparators of constraints.
-COMPARATORS = ('<', '<=', '>', '>=', '=')
+COMPARATORS = ('<', '<=', '>', '>=', '=', '!=')
 
-#: Commands; the second is how the paper spells the first in its text.
-COMMANDS = ('setProperty', 'setProprety')
+_CONCEPTS = ('agent', 'object', 'region')
 
-_CONCEPTS = ('agent', 'object')
+#: What also does where something else is wanted: a number is an angle in radians.
+_CONVERTED = frozenset({(Kind.PLACE, Kind.AGENT), (Kind.ANGLE, Kind.NUMBER)})
+
+_NOT_COMPARED = frozenset({Kind.PLACE, Kind.AGENT, Kind.REGION})
 
 
 def check(preconditions: Preconditions, world: World | None = None) -> tuple[Diagnostic, ...]:
@@ -47,26 +53,32 @@ def check(preconditions: Preconditions, world: World | None = None) -> tuple[Dia
     for item in preconditions.items:
         if isinstance(item, Command):
             checker.check_command(item)
+        elif isinstance(item, Condition):
+            checker.check_condition(item)
         else:
             checker.check_constraint(item)
     found = checker.diagnostics
     if not found:
-        constraints = preconditions.constraints
-        periodic = [is_periodic(constraint, preconditions.agents) for constraint in constraints]
-        found += contradictions(constraints, periodic)
+        plain = [
+            (item, *compared(item, preconditions.agents)) for item in preconditions.constraints
+        ]
+        found += contradictions(plain)
     return tuple(sorted(found, key=lambda diagnostic: (diagnostic.line, diagnostic.column)))
 
 
-def is_periodic(constraint: Constraint, agents: Iterable[str]) -> bool:
-    """Whether the constraint equates angles, which are the same modulo 2 pi."""
-    if constraint.comparator != '=':
-        return False
+def compared(item: Constraint | Condition, agents: Iterable[str]) -> tuple[Constraint, bool]:
+    """The comparison that ``item`` asks for, and whether it equates angles, modulo 2 pi."""
+    plain = comparison(item, isinstance(item, Constraint) and _is_angular(item, agents))
+    return plain, plain.comparator == '=' and _is_angular(plain, agents)
+
+
+def _is_angular(constraint: Constraint, agents: Iterable[str]) -> bool:
     sides = constraint.left, constraint.right
     return any(_is_heading(side, agents) or _gives_angle(side) for side in sides)
 
 
 def _is_heading(side: Expression, agents: Iterable[str]) -> bool:
-    return isinstance(side, Property) and side.name == 'heading' and side.owner in agents
+    return isinstance(side, Property) and side.name in ANGULAR_COMPONENTS and side.owner in agents
 
 
 def _gives_angle(side: Expression) -> bool:
@@ -86,6 +98,7 @@ class _Checker:
         self._items = preconditions.items
         self._agents = preconditions.agents
         self._objects = preconditions.objects
+        self._regions = preconditions.regions
         self._world = world
 
     def check_statements(self) -> None:
@@ -95,10 +108,10 @@ class _Checker:
                 self._unknown('statement', statement.concept, _CONCEPTS, statement)
             elif statement.label == 'pi':
                 self._error("'pi' is a number, not a label", statement)
-            elif statement.concept == 'object' and statement.label in self._agents:
-                self._error(
-                    f"'{statement.label}' is stated to be an agent and an object", statement
-                )
+            elif (other := self._other_concept(statement)) is not None:
+                message = f"'{statement.label}' is stated to be an {other} and a"
+                message += f'{"n" if statement.concept == "object" else ""} {statement.concept}'
+                self._error(message, statement)
             elif self._world and not statement.label.startswith('?'):
                 self._check_label(statement, self._world)
         if self._items and not self._agents:
@@ -106,12 +119,6 @@ class _Checker:
 
     def check_command(self, command: Command) -> None:
         """Name, number and kinds of the arguments of a direct assignment."""
-        if command.name not in COMMANDS:
-            if command.name in FUNCTIONS:
-                self._error(f'expected a comparator after {to_text(command)}', command)
-            else:
-                self._unknown('command', command.name, COMMANDS[:1], command)
-            return
         if len(command.arguments) != 2:
             self._error(_arity(command.name, 2, len(command.arguments)), command)
             return
@@ -126,6 +133,26 @@ class _Checker:
             self._kind(target)
         self._expect(Kind.NUMBER, value)
 
+    def check_condition(self, condition: Condition) -> None:
+        """What stands alone has to be a condition, and can be negated unless it is an equality."""
+        call, negated = unwrapped(condition.call)
+        function = FUNCTIONS.get(call.name)
+        if call.name == NOT:
+            self._error('not(...) takes one condition, such as inside(?r, ?z)', condition)
+            return
+        if function is None:
+            known = [*COMMANDS[:1], NOT, *FUNCTIONS]
+            self._unknown('command or condition', call.name, known, condition)
+            return
+        self._kind(call)
+        if not function.condition:
+            self._error(f'expected a comparator after {to_text(call)}', condition)
+        elif negated and function.condition == '=':
+            message = f'{to_text(condition)} would exclude a single value: name a range instead'
+            if function.result is Kind.ANGLE:
+                message += ', as with not(field_of_view(...)) or angle_between(...)'
+            self._error(message, condition)
+
     def check_constraint(self, constraint: Constraint) -> None:
         """Comparator, sides and whether the two go together."""
         left, right = self._kind(constraint.left), self._kind(constraint.right)
@@ -135,14 +162,21 @@ class _Checker:
             self._error(message, constraint)
             return
         for side, kind in ((constraint.left, left), (constraint.right, right)):
-            if kind in {Kind.PLACE, Kind.AGENT}:
+            if kind in _NOT_COMPARED:
                 message = f"'{to_text(side)}' is not a number: expected a property or a function"
+                self._error(message, side)
+                return
+            if kind is Kind.CONDITION:
+                message = f'{to_text(side)} is a condition: it stands alone and is not compared'
                 self._error(message, side)
                 return
         if left is None or right is None:
             return
-        if Kind.ANGLE in {left, right} and constraint.comparator != '=':
-            message = f"an angle cannot be compared with '{constraint.comparator}', only with '='"
+        if Kind.ANGLE in {left, right} and constraint.comparator not in {'=', '!='}:
+            message = (
+                f"an angle cannot be compared with '{constraint.comparator}', only with '=' and "
+                "'!=': angle_between(...) gives a number"
+            )
             self._error(message, constraint)
         elif left is not right and not self._has_heading(constraint):
             number = constraint.left if left is Kind.NUMBER else constraint.right
@@ -179,12 +213,17 @@ class _Checker:
             return Kind.AGENT
         if node.name in self._objects:
             return Kind.PLACE
+        if node.name in self._regions:
+            return Kind.REGION
         self._undeclared(node.name, node)
         return None
 
     def _kind_of_property(self, node: Property) -> Kind | None:
         if node.owner in self._agents:
-            known: Iterable[str] = COMPONENTS
+            car = self._world.robots.get(node.owner) if self._world else None
+            known: Iterable[str] = car.components if car else COMPONENTS
+        elif node.owner in self._regions:
+            known = ()
         elif node.owner not in self._objects:
             self._undeclared(node.owner, node)
             return None
@@ -202,22 +241,28 @@ class _Checker:
         if node.name in COMMANDS:
             self._error(f'{node.name} is a command and has no value', node)
             return None
+        if node.name == NOT:
+            self._error('not(...) stands alone, round a condition such as inside(?r, ?z)', node)
+            return None
         function = FUNCTIONS.get(node.name)
         if function is None:
             for argument in node.arguments:
                 self._kind(argument)
             self._unknown('function', node.name, FUNCTIONS, node, Code.UNKNOWN_FUNCTION)
             return None
-        if len(node.arguments) != len(function.arguments):
-            self._error(_arity(node.name, len(function.arguments), len(node.arguments)), node)
+        kinds = function.kinds(len(node.arguments))
+        if kinds is None:
+            least = 'at least ' if function.repeats else ''
+            wanted = len(function.arguments)
+            self._error(_arity(node.name, wanted, len(node.arguments), least), node)
             return None
-        pairs = zip(function.arguments, node.arguments, strict=True)
+        pairs = zip(kinds, node.arguments, strict=True)
         good = [self._expect(kind, argument, of=node.name) for kind, argument in pairs]
-        return function.result if all(good) else None
+        return function.gives if all(good) else None
 
     def _expect(self, wanted: Kind, node: Expression, of: str = '') -> bool:
         kind = self._kind(node)
-        if kind is wanted or (wanted is Kind.PLACE and kind is Kind.AGENT):
+        if kind is wanted or (wanted, kind) in _CONVERTED:
             return True
         if kind is not None:
             where = f'{of} wants {wanted.value}' if of else f'expected {wanted.value}'
@@ -231,11 +276,19 @@ class _Checker:
             self._unknown('agent', label, world.robots, statement, Code.UNKNOWN_AGENT)
         elif statement.concept == 'object' and label not in world.objects:
             self._unknown('object', label, world.objects, statement, Code.UNKNOWN_OBJECT)
+        elif statement.concept == 'region' and label not in world.regions:
+            self._unknown('region', label, world.regions, statement, Code.UNKNOWN_OBJECT)
+
+    def _other_concept(self, statement: Statement) -> str | None:
+        """An earlier concept of ``_CONCEPTS`` that the same label is stated to be, too."""
+        stated = {'agent': self._agents, 'object': self._objects, 'region': self._regions}
+        earlier = _CONCEPTS[: _CONCEPTS.index(statement.concept)]
+        return next((name for name in earlier if statement.label in stated[name]), None)
 
     def _undeclared(self, name: str, node: Node) -> None:
-        stated = (*self._agents, *self._objects)
+        stated = (*self._agents, *self._objects, *self._regions)
         hint = _hint(name, stated)
-        message = f"'{name}' is not stated: write (agent {name}) or (object {name}){hint}"
+        message = f"'{name}' is not stated: write (agent {name}), (object {name}) or (region {name}){hint}"
         if '-' in name:
             message += '; a minus after a name needs a space'
         self._error(message, node)
@@ -257,7 +310,7 @@ class _Checker:
         if isinstance(node, Statement):
             text = f'({node.concept} {node.label})'
         else:
-            assert isinstance(node, Expression | Command | Constraint)
+            assert isinstance(node, Expression | Command | Constraint | Condition)
             text = to_text(node)
         self.diagnostics.append(
             Diagnostic(message, node.line, node.column, text, '', Severity.ERROR, code)
@@ -269,5 +322,5 @@ def _hint(name: str, known: Iterable[str]) -> str:
     return f" (did you mean '{close[0]}'?)" if close else ''
 
 
-def _arity(name: str, wanted: int, given: int) -> str:
-    return f'{name} takes {wanted} argument{"" if wanted == 1 else "s"}, not {given}'
+def _arity(name: str, wanted: int, given: int, least: str = '') -> str:
+    return f'{name} takes {least}{wanted} argument{"" if wanted == 1 else "s"}, not {given}'

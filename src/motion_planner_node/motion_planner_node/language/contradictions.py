@@ -6,7 +6,7 @@ terms bound the same quantity, and their bounds are compared. This works on text
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite, nan, pi, remainder
 
@@ -18,7 +18,7 @@ from motion_planner_node.errors import Diagnostic
 from motion_planner_node.functions import Interval
 from motion_planner_node.language.linear import Linear, linear
 from motion_planner_node.language.printer import number_to_text, to_text
-from motion_planner_node.language.syntax import Constraint
+from motion_planner_node.language.syntax import Condition, Constraint
 from motion_planner_node.language.tape import Tape
 
 _TOLERANCE = 1e-9
@@ -37,43 +37,43 @@ class _Bound:
     comparator: str
     value: float
     periodic: bool
-    constraint: Constraint
+    item: Constraint | Condition
 
 
 def contradictions(
-    constraints: Sequence[Constraint], periodic: Sequence[bool]
+    items: Iterable[tuple[Constraint | Condition, Constraint, bool]],
 ) -> tuple[Diagnostic, ...]:
-    """Errors with both places and numbers; ``periodic`` tells the equalities modulo 2 pi.
+    """Errors with both places and numbers.
 
-    The constraints have to be free of other errors.
+    Each item comes with the comparison that it asks for, and whether that is an equality modulo
+    2 pi. The items have to be free of other errors.
     """
     found: list[Diagnostic] = []
     bounds: dict[tuple[tuple[str, float], ...], list[_Bound]] = {}
-    for constraint, modulo in zip(constraints, periodic, strict=True):
+    for item, constraint, modulo in items:
         form = linear(constraint.left).plus(linear(constraint.right), -1.0)
         reason = _never_holds(constraint, form, modulo)
         if reason:
-            found.append(_diagnostic(constraint, f'{to_text(constraint)} never holds: {reason}'))
+            found.append(_diagnostic(item, f'{to_text(item)} never holds: {reason}'))
             continue
-        bound = _bound(constraint, form, modulo) if form.terms else None
+        bound = _bound(item, constraint, form, modulo) if form.terms else None
         if bound is None:
             continue
         others = bounds.setdefault(bound.quantity, [])
         for other in others:
             if _exclude(other, bound):
-                found.append(_diagnostic(constraint, _sentence(other, bound)))
+                found.append(_diagnostic(item, _sentence(other, bound)))
                 break
         others.append(bound)
     return tuple(found)
 
 
-def _diagnostic(constraint: Constraint, message: str) -> Diagnostic:
-    text = to_text(constraint)
-    return Diagnostic(message, constraint.line, constraint.column, text, code=Code.CONTRADICTION)
+def _diagnostic(item: Constraint | Condition, message: str) -> Diagnostic:
+    return Diagnostic(message, item.line, item.column, to_text(item), code=Code.CONTRADICTION)
 
 
 def _sentence(first: _Bound, second: _Bound) -> str:
-    return f'{to_text(first.constraint)} and {to_text(second.constraint)} exclude each other'
+    return f'{to_text(first.item)} and {to_text(second.item)} exclude each other'
 
 
 def _never_holds(constraint: Constraint, form: Linear, periodic: bool) -> str:
@@ -142,7 +142,9 @@ def _range(bounds: Sequence[_Bound]) -> tuple[tuple[float, bool], tuple[float, b
     return low, (high, not not_strict)
 
 
-def _bound(constraint: Constraint, form: Linear, periodic: bool) -> _Bound | None:
+def _bound(
+    item: Constraint | Condition, constraint: Constraint, form: Linear, periodic: bool
+) -> _Bound | None:
     first = min(form.terms)
     factor = form.terms[first]
     value = -form.number / factor
@@ -150,4 +152,4 @@ def _bound(constraint: Constraint, form: Linear, periodic: bool) -> _Bound | Non
         return None
     quantity = tuple((name, form.terms[name] / factor) for name in sorted(form.terms))
     comparator = constraint.comparator if factor > 0.0 else _FLIPPED[constraint.comparator]
-    return _Bound(quantity, comparator, value, periodic, constraint)
+    return _Bound(quantity, comparator, value, periodic, item)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 from importlib.resources import files
 from math import isinf
@@ -11,10 +12,13 @@ from lark import Lark, Token, UnexpectedCharacters, UnexpectedToken
 
 from motion_planner_node.codes import Code
 from motion_planner_node.errors import Diagnostic, MotionPlannerError
+from motion_planner_node.language.parts import elements, in_place
 from motion_planner_node.language.printer import to_text
 from motion_planner_node.language.syntax import (
+    COMMANDS,
     Call,
     Command,
+    Condition,
     Constant,
     Constraint,
     Expression,
@@ -45,13 +49,51 @@ _AnyNode = TypeVar('_AnyNode', bound='Expression | Item')
 def parse(text: str) -> Preconditions:
     """Read a text in the paper's language (Table 1), ground or with variables.
 
-    Raises MotionPlannerError with one diagnostic (line, column, offending text, what was expected)
-    when the text breaks the grammar, is longer than 64 KiB, nested deeper than 100 levels or holds
-    more than 64 commands and constraints.
+    Raises MotionPlannerError with a diagnostic (line, column, offending text, what was expected)
+    for each element that breaks the grammar, or one when parentheses do not match or the text is
+    longer than 64 KiB, nested deeper than 100 levels or holds more than 64 commands and constraints.
     """
-    if len(text) > MAXIMUM_SIZE or len(text.encode('utf-8', 'replace')) > MAXIMUM_SIZE:
-        raise error_at(text, 0, f'the text is longer than {MAXIMUM_SIZE} bytes', '')
-    _refuse_deep_parentheses(text)
+    preconditions, errors = read(text)
+    if errors:
+        raise MotionPlannerError.from_diagnostics(errors)
+    return preconditions
+
+
+def read(text: str) -> tuple[Preconditions, tuple[Diagnostic, ...]]:
+    """What can be read of ``text``, and what is wrong with the rest.
+
+    After an error, reading goes on at the next element, where the parentheses show which it is.
+    """
+    try:
+        if len(text) > MAXIMUM_SIZE or len(text.encode('utf-8', 'replace')) > MAXIMUM_SIZE:
+            raise error_at(text, 0, f'the text is longer than {MAXIMUM_SIZE} bytes', '')
+        _refuse_deep_parentheses(text)
+        return _parse(text), ()
+    except MotionPlannerError as error:
+        parts = elements(text) if len(text) <= MAXIMUM_SIZE else []
+        if len(parts) < 2:
+            return Preconditions(), error.diagnostics
+        return _read_parts(text, parts, error)
+
+
+def _read_parts(
+    text: str, parts: Sequence[tuple[int, int]], first: MotionPlannerError
+) -> tuple[Preconditions, tuple[Diagnostic, ...]]:
+    statements: list[Statement] = []
+    items: list[Item] = []
+    errors: list[Diagnostic] = []
+    for start, end in parts:
+        try:
+            part = _parse(in_place(text, start, end))
+        except MotionPlannerError as error:
+            errors += error.diagnostics
+            continue
+        statements += part.statements
+        items += part.items
+    return Preconditions(tuple(statements), tuple(items)), tuple(errors) or first.diagnostics
+
+
+def _parse(text: str) -> Preconditions:
     try:
         result: Any = _parser().parse(text)
     except UnexpectedToken as failure:
@@ -124,8 +166,10 @@ class _Builder:
             return node
         if not isinstance(node, Call):
             _not_too_deep(node)
-            message = 'expected a comparator (< <= > >= =), or a command such as setProperty'
+            message = 'expected a comparator (< <= > >= = !=), or a command such as setProperty'
             raise _error(message, node, to_text(node))
+        if node.name not in COMMANDS:
+            return _not_too_deep(Condition(node, line=node.line, column=node.column))
         command = Command(node.name, node.arguments, line=node.line, column=node.column)
         return _not_too_deep(command)
 

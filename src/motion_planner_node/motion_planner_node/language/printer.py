@@ -5,6 +5,7 @@ from __future__ import annotations
 from motion_planner_node.language.syntax import (
     Call,
     Command,
+    Condition,
     Constant,
     Constraint,
     Expression,
@@ -29,6 +30,8 @@ def to_text(node: Preconditions | Item | Expression) -> str:
         return f'({" ".join(statements + items)})'
     if isinstance(node, Constraint):
         return f'{to_text(node.left)} {node.comparator} {to_text(node.right)}'
+    if isinstance(node, Condition):
+        return to_text(node.call)
     if isinstance(node, Call | Command):
         return f'{node.name}({", ".join(map(to_text, node.arguments))})'
     if isinstance(node, Operation):

@@ -34,7 +34,7 @@ class Constant(Node):
 
 @dataclass(frozen=True, slots=True)
 class Label(Node):
-    """An agent or an object, or a variable (``?o``) that stands for one."""
+    """An agent, an object or a region, or a variable (``?o``) that stands for one."""
 
     name: str
 
@@ -71,12 +71,15 @@ class Operation(Node):
     right: Expression
 
 
+#: Commands; the second is how the paper spells the first in its text.
+COMMANDS = ('setProperty', 'setProprety')
+
 Expression = Number | Constant | Label | Property | Call | Negation | Operation
 
 
 @dataclass(frozen=True, slots=True)
 class Statement(Node):
-    """``(agent ?r)`` or ``(object ?o)``: what kind of thing a label is."""
+    """``(agent ?r)``, ``(object ?o)`` or ``(region ?z)``: what kind of thing a label is."""
 
     concept: str
     label: str
@@ -99,7 +102,14 @@ class Constraint(Node):
     right: Expression
 
 
-Item = Command | Constraint
+@dataclass(frozen=True, slots=True)
+class Condition(Node):
+    """A call that stands alone and has to hold: ``visible(?r, ?o)``, ``not(inside(?r, ?z))``."""
+
+    call: Call
+
+
+Item = Command | Constraint | Condition
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,14 +130,19 @@ class Preconditions:
         return self._labels('object')
 
     @property
+    def regions(self) -> tuple[str, ...]:
+        """Labels that statements call regions, without repetition."""
+        return self._labels('region')
+
+    @property
     def commands(self) -> tuple[Command, ...]:
         """The commands, in order."""
         return tuple(item for item in self.items if isinstance(item, Command))
 
     @property
-    def constraints(self) -> tuple[Constraint, ...]:
+    def constraints(self) -> tuple[Constraint | Condition, ...]:
         """The constraints, in order."""
-        return tuple(item for item in self.items if isinstance(item, Constraint))
+        return tuple(item for item in self.items if not isinstance(item, Command))
 
     @property
     def assigns(self) -> bool:
@@ -158,6 +173,8 @@ def children(node: Expression | Item) -> tuple[Expression, ...]:
         return node.left, node.right
     if isinstance(node, Negation):
         return (node.operand,)
+    if isinstance(node, Condition):
+        return (node.call,)
     return ()
 
 

@@ -13,7 +13,7 @@ _PARENTHESIS_OR_COMMENT = re.compile(r';[^\n]*|[()]')
 _VALUE = frozenset({'NUMBER', 'PI', 'NAME', 'VARIABLE', 'PROPERTY', 'FUNCTION', 'MINUS', 'LPAR'})
 
 _WORDS = {
-    'COMPARATOR': 'a comparator (< <= > >= =)',
+    'COMPARATOR': 'a comparator (< <= > >= = !=)',
     'PLUS': 'an operator (+ - * /)',
     'STAR': 'an operator (+ - * /)',
     'COMMA': "','",
@@ -50,7 +50,7 @@ def error_at(text: str, at: int, message: str, found: str) -> MotionPlannerError
 
 
 def in_words(terminals: Iterable[str]) -> str:
-    """The terminals of the grammar for people: ``a comparator (< <= > >= =) or ')'``."""
+    """The terminals of the grammar for people: ``a comparator (< <= > >= = !=) or ')'``."""
     names = set(terminals)
     words = []
     if 'NUMBER' in names:

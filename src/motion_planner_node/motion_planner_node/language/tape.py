@@ -13,7 +13,16 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from motion_planner_node.functions import COMPONENTS, FUNCTIONS, Dual, Kind, Place, Scalar
+from motion_planner_node.functions import (
+    COMPONENTS,
+    FUNCTIONS,
+    Dual,
+    Field,
+    Kind,
+    Place,
+    Scalar,
+    Surroundings,
+)
 from motion_planner_node.language.syntax import (
     Call,
     Constant,
@@ -29,28 +38,38 @@ _S = TypeVar('_S', bound=Scalar)
 
 _OPERATIONS: dict[str, Callable[..., Any]] = {'+': add, '-': sub, '*': mul, '/': truediv}
 
+#: A slot, a tuple of slots that is a place, or what is the same for every attitude.
+_Argument = int | tuple[int, ...] | Field | Surroundings
+
 #: Numbers that have a name.
 CONSTANTS = {'pi': pi}
 
 
 @dataclass(frozen=True, slots=True)
 class _Step:
-    """Apply ``operation`` to slots, a tuple of three slots being a place, and fill ``target``."""
+    """Apply ``operation`` to ``arguments`` and fill slot ``target``."""
 
     target: int
     operation: Callable[..., Any]
     truncated: Callable[..., Any]
-    arguments: tuple[int | tuple[int, ...], ...]
+    arguments: tuple[_Argument, ...]
 
 
 class Tape:
     """Steps that compute expressions from the attitudes of the agent ``moving``.
 
     ``places`` holds the fields of everything else, by label; what is missing is NaN, an unknown
-    number. Expressions have to be free of errors (``check``).
+    number. Nothing is known of the world where there are no ``surroundings``. Expressions have to be
+    free of errors (``check``).
     """
 
-    def __init__(self, moving: str, places: Mapping[str, Mapping[str, float]]) -> None:
+    def __init__(
+        self,
+        moving: str,
+        places: Mapping[str, Mapping[str, float]],
+        surroundings: Surroundings | None = None,
+    ) -> None:
+        self._surroundings = surroundings or Surroundings()
         self._moving = moving
         self._places = places
         self._constants: list[float | None] = [None] * len(COMPONENTS)
@@ -81,14 +100,7 @@ class Tape:
         values[: len(COMPONENTS)] = state
         for step in self._steps:
             operation = step.truncated if truncated else step.operation
-            values[step.target] = operation(
-                *(
-                    values[argument]
-                    if isinstance(argument, int)
-                    else Place(*(values[slot] for slot in argument))
-                    for argument in step.arguments
-                )
-            )
+            values[step.target] = operation(*(_value(item, values) for item in step.arguments))
         return values
 
     def _template(self, constant: Callable[[float], _S]) -> list[Any]:
@@ -115,14 +127,18 @@ class Tape:
             return self._step(operation, operation, operands)
         assert isinstance(expression, Call)
         function = FUNCTIONS[expression.name]
-        arguments = tuple(
-            self.slot(argument) if kind in {Kind.NUMBER, Kind.ANGLE} else self._place(argument)
-            for kind, argument in zip(function.arguments, expression.arguments, strict=True)
-        )
-        return self._step(function.value, function.truncated, arguments)
+        kinds = function.kinds(len(expression.arguments))
+        assert kinds is not None
+        arguments = map(self._argument, kinds, expression.arguments)
+        seen = (self._surroundings,) if function.sees_world else ()
+        return self._step(function.value, function.truncated, (*seen, *arguments))
 
-    def _place(self, expression: Expression) -> tuple[int, ...]:
+    def _argument(self, kind: Kind, expression: Expression) -> _Argument:
+        if kind in {Kind.NUMBER, Kind.ANGLE}:
+            return self.slot(expression)
         assert isinstance(expression, Label)
+        if kind is Kind.REGION:
+            return self._surroundings.region(expression.name)
         return tuple(self.slot(Property(expression.name, name)) for name in COMPONENTS)
 
     def _number(self, value: float) -> int:
@@ -133,7 +149,7 @@ class Tape:
         self,
         operation: Callable[..., Any],
         truncated: Callable[..., Any],
-        arguments: tuple[int | tuple[int, ...], ...],
+        arguments: tuple[_Argument, ...],
     ) -> int:
         folded = self._folded(operation, arguments)
         if folded is not None:
@@ -144,17 +160,26 @@ class Tape:
         return target
 
     def _folded(
-        self, operation: Callable[..., Any], arguments: tuple[int | tuple[int, ...], ...]
+        self, operation: Callable[..., Any], arguments: tuple[_Argument, ...]
     ) -> float | None:
         """The result if no argument moves and all that the operation needs is known."""
-        known = []
+        numbers: dict[int, Dual] = {}
         for argument in arguments:
-            slots = (argument,) if isinstance(argument, int) else argument
-            numbers = [self._constants[slot] for slot in slots]
-            duals = [Dual.constant(number) for number in numbers if number is not None]
-            if len(duals) < len(numbers):
-                return None
-            known.append(duals[0] if isinstance(argument, int) else Place(*duals))
+            for slot in argument if isinstance(argument, tuple) else (argument,):
+                if isinstance(slot, int):
+                    value = self._constants[slot]
+                    if value is None:
+                        return None
+                    numbers[slot] = Dual.constant(value)
         with np.errstate(all='ignore'):
-            result = float(operation(*known).value)
+            result = float(operation(*(_value(item, numbers) for item in arguments)).value)
         return None if np.isnan(result) else result
+
+
+def _value(argument: _Argument, values: Sequence[Any] | Mapping[int, Any]) -> Any:
+    """What the operation of a step is given for ``argument``."""
+    if isinstance(argument, int):
+        return values[argument]
+    if isinstance(argument, tuple):
+        return Place(*(values[slot] for slot in argument))
+    return argument

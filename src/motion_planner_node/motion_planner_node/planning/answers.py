@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
-from math import isfinite
 
 import numpy as np
 
@@ -18,8 +17,11 @@ from motion_planner_node.planning.stream import Found
 from motion_planner_node.planning.tried import Tried
 from motion_planner_node.requests import GeometricAnswer
 from motion_planner_node.robots.motion import Attitude, Motion
-from motion_planner_node.satisfaction import descend
+from motion_planner_node.satisfaction import from_start, restarts, separation, together, unsolved
 from motion_planner_node.world.model import CarModel
+
+#: Descents among which the best compromise is chosen.
+COMPROMISES = 64
 
 
 def refused(error: MotionPlannerError, revision: str) -> GeometricAnswer:
@@ -94,7 +96,7 @@ def impossible(problem: Problem, ground: Ground, proof: Impossible) -> Geometric
         scope=proof.scope,
         message=proof.message,
         advice=proof.advice,
-        residuals=problem.program.residuals(compromise(problem)),
+        residuals=problem.program.residuals(compromise(problem, ground)),
     )
 
 
@@ -111,7 +113,7 @@ def out_of_time(problem: Problem, ground: Ground, tried: Tried) -> GeometricAnsw
 def exhausted(problem: Problem, ground: Ground, tried: Tried, alternative: int) -> GeometricAnswer:
     """All rounds are over and nothing (more) was found; nothing is proven."""
     about = replace(_about(problem, ground), attempts=tuple(tried.attempts))
-    best = compromise(problem)
+    best = compromise(problem, ground)
     about = replace(about, residuals=problem.program.residuals(best))
     if alternative:
         return replace(
@@ -137,20 +139,39 @@ def exhausted(problem: Problem, ground: Ground, tried: Tried, alternative: int) 
             f'{tried.examples[AttemptResult.IN_OBSTACLE]}',
             advice=_in_the_way(tried, ground),
         )
-    missed = problem.program.unmet(best)
-    return replace(
-        about,
-        code=Code.NOT_SATISFIED,
-        message=missed[0] if missed else 'no attitude was found that meets all constraints',
+    return replace(about, code=Code.NOT_SATISFIED, message=_fight(problem, ground, best))
+
+
+def _fight(problem: Problem, ground: Ground, best: Attitude) -> str:
+    """Which constraints fight each other, and what the ``best`` compromise makes of them."""
+    program = problem.program
+    rows = unsolved(program, ground.scene.world.bounds)
+    if not rows:
+        return 'no attitude was found that meets all constraints'
+    apart = separation(program, rows)
+    missed = '; '.join(program.only(rows).unmet(best))
+    return (
+        f'no attitude was found that meets {together(program, rows)}'
+        f'{f", but {apart}" if apart else ""}; '
+        f'the best compromise is ({best.x:.6g}, {best.y:.6g}, {best.heading:.4g}): {missed}'
     )
 
 
-def compromise(problem: Problem) -> Attitude:
-    """Where the descent from the start ends, which misses the constraints by the least it can."""
-    start = problem.start
-    state = np.array([[start.x, start.y, start.heading]])
-    end = descend(problem.program, state).states[0]
-    return Attitude(*(float(number) for number in end)) if all(map(isfinite, end)) else start
+def compromise(problem: Problem, ground: Ground) -> Attitude:
+    """The attitude on the map that misses the constraints least, of many descents."""
+    bounds = ground.scene.world.bounds
+    first = from_start(problem.program, problem.start)
+    more = restarts(problem.program, bounds, np.random.default_rng(0), COMPROMISES)
+    states = np.concatenate((first.states, more.states))
+    x, y = states[:, 0], states[:, 1]
+    inside = (x >= bounds.x_min) & (x <= bounds.x_max) & (y >= bounds.y_min) & (y <= bounds.y_max)
+    violations = np.concatenate((first.violations, more.violations))
+    with np.errstate(over='ignore'):
+        missed = np.where(inside, (violations**2).sum(axis=1), np.inf)
+    best = int(np.argmin(missed))
+    if not np.isfinite(missed[best]):
+        return problem.start
+    return Attitude(*(float(number) for number in states[best]))
 
 
 def _about(problem: Problem, ground: Ground) -> GeometricAnswer:

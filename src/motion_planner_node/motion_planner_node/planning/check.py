@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from motion_planner_node.errors import Diagnostic, MotionPlannerError, Severity
-from motion_planner_node.language import check, parse
+from motion_planner_node.errors import Diagnostic, Severity
+from motion_planner_node.language import check, read
 from motion_planner_node.world.model import World
 
 
@@ -26,13 +26,11 @@ def check_text(
     Without a ``world`` labels are not looked up.  Lines and columns count from 1; 0 means that the
     positions are those in the text itself.
     """
-    assigns = False
-    try:
-        preconditions = parse(text)
-        assigns = preconditions.assigns
-        remarks = check(preconditions, world)
-    except MotionPlannerError as error:
-        remarks = error.diagnostics or (Diagnostic(error.message, code=error.code),)
+    preconditions, errors = read(text)
+    remarks = errors
+    if not errors or preconditions.statements:
+        remarks = (*errors, *check(preconditions, world))
+    remarks = tuple(sorted(remarks, key=lambda remark: (remark.line, remark.column)))
     moved = tuple(remark.moved(source, line, column) for remark in remarks)
     valid = all(remark.severity is not Severity.ERROR for remark in moved)
-    return CheckResult(valid, assigns, moved)
+    return CheckResult(valid, not errors and preconditions.assigns, moved)

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from motion_planner_node.planning.boxes import Boxes, Pyramid
 from motion_planner_node.robots.car import dubins_lengths
 from motion_planner_node.robots.motion import Attitude, Motion, Segment
+from motion_planner_node.satisfaction import Room
 from motion_planner_node.world.model import CarModel
-from motion_planner_node.world.scene import Scene
+from motion_planner_node.world.scene import Scene, required_clearance
 
 #: Boxes on a side of the map where a grid over all of it is needed, free or not.
 WHOLE_MAP_BOXES = 96
@@ -47,6 +48,8 @@ class Ground:
             bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max, WHOLE_MAP_BOXES
         )
         self.everywhere = Pyramid(whole)
+        #: Where the robot's disc can be, for descents and proofs.
+        self.room = Room(scene.shapes, required_clearance(car.radius))
 
     def is_free(self, states: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Which of the attitudes (n, 3) the robot can stand in, shape (n,)."""

@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 from math import isfinite
 
 from motion_planner_node.codes import Code
-from motion_planner_node.errors import MotionPlannerError
+from motion_planner_node.errors import Diagnostic, MotionPlannerError
 from motion_planner_node.language import Preconditions
+from motion_planner_node.parameters import MODES
 from motion_planner_node.requests import GeometricRequest
 from motion_planner_node.robots.motion import Attitude, GeometricState
 from motion_planner_node.satisfaction import Program, compile_program
@@ -43,14 +44,20 @@ class Problem:
 
 
 def read_problem(
-    world: World, preconditions: Preconditions, state: GeometricState, agent: str = ''
+    world: World,
+    preconditions: Preconditions,
+    state: GeometricState,
+    agent: str = '',
+    remarks: Sequence[Diagnostic] | None = None,
 ) -> Problem:
     """Compile ``preconditions`` for ``state``; ``agent`` moves, or the first one stated.
+
+    ``remarks`` are those of ``language.check``, where they are known.
 
     :raises MotionPlannerError: UNKNOWN_AGENT, UNKNOWN_OBJECT, UNKNOWN_FUNCTION,
         UNKNOWN_PROPERTY, NO_START or INVALID_PRECONDITIONS
     """
-    program = compile_program(preconditions, world, state, agent)
+    program = compile_program(preconditions, world, state, agent, remarks)
     if not program.assigns and program.agent not in state:
         raise MotionPlannerError(
             Code.NO_START, f'{program.agent} has no attitude yet: nothing has assigned one'
@@ -67,6 +74,10 @@ def check_request(world: World, request: GeometricRequest) -> None:
     if request.behaviour.strip():
         raise MotionPlannerError(
             Code.UNSUPPORTED, 'behaviour constraints are not supported yet: leave them empty'
+        )
+    if request.mode and request.mode not in MODES:
+        raise MotionPlannerError(
+            Code.UNSUPPORTED, f'there is no mode {request.mode!r}; there are {", ".join(MODES)}'
         )
     if not 0.0 <= request.time_budget < float('inf'):
         raise MotionPlannerError(

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from motion_planner_node.codes import Code, Scope
 from motion_planner_node.planning.ground import Area, Ground
 from motion_planner_node.planning.problem import Problem
+from motion_planner_node.satisfaction import branch_and_prune
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +60,14 @@ def walled_off(problem: Problem, ground: Ground, hopeful: NDArray[np.intp]) -> I
         return None
     there, counts = np.unique(parts, return_counts=True)
     return _enclosed(problem, ground, here, int(there[np.argmax(counts)]))
+
+
+def no_attitude(problem: Problem, ground: Ground) -> Impossible | None:
+    """Whether interval bounds prove that no attitude, heading included, is free and will do."""
+    bounds = ground.scene.world.bounds
+    if branch_and_prune(problem.program, bounds, room=ground.room).is_empty:
+        return _no_free_place(problem, ground)
+    return None
 
 
 def _no_free_place(problem: Problem, ground: Ground) -> Impossible:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from math import hypot, remainder, tau
+from math import hypot, pi, remainder, tau
 
 import numpy as np
 
@@ -15,7 +15,12 @@ from motion_planner_node.parameters import Parameters
 from motion_planner_node.paths import plan_path
 from motion_planner_node.planning.ground import Ground
 from motion_planner_node.planning.problem import Problem
-from motion_planner_node.planning.proofs import Impossible, hopeful_cells, walled_off
+from motion_planner_node.planning.proofs import (
+    Impossible,
+    hopeful_cells,
+    no_attitude,
+    walled_off,
+)
 from motion_planner_node.planning.tried import Tried
 from motion_planner_node.robots.car import end_of
 from motion_planner_node.robots.motion import Attitude, Motion
@@ -23,6 +28,9 @@ from motion_planner_node.satisfaction import destinations
 
 #: Destinations that are as near as this [m] and [rad] are the same one, found again.
 SAME = 1e-3
+
+#: Alternatives first have to differ by this much of all that they can, then by less and less.
+SHARES = (0.5, 0.25, 0.125, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +43,7 @@ class Found:
 
 
 @dataclass(order=True, slots=True)
-class _Candidate:
+class Candidate:
     """A destination; ``length`` [m] is an estimate until there is a motion.
 
     One that may be a dead end comes after all others: the next action has to start there.
@@ -51,6 +59,9 @@ class _Candidate:
 class Stream:
     """Motions to really different destinations, the shortest of a handful first.
 
+    Those that come after the first are on another side or at another distance, as far as there is
+    any; when there is no more, they may be nearer to those before them.
+
     What comes k-th depends on the problem, the seed and the parameters alone: not on who asked
     before, nor on time.  Counts bound the work; ``should_stop`` only breaks it off.
     """
@@ -65,7 +76,10 @@ class Stream:
     def _restart(self) -> None:
         self.tried = Tried(self._problem.agent)
         self._found: list[Found] = []
-        self._candidates: list[_Candidate] = []
+        self._candidates: list[Candidate] = []
+        self._alike: list[Candidate] = []
+        self._share = SHARES[0]
+        self._spread = 0.0
         self._seen: list[Attitude] = []
         self._failures = 0
         self.proof: Impossible | None = None
@@ -93,26 +107,44 @@ class Stream:
         return self._found[alternative] if alternative < len(self._found) else None
 
     def _generate(self) -> Iterator[Found]:
+        if not self._problem.program.unmet(self._problem.start):
+            # Nothing is nearer than here; other destinations are for those who ask for them.
+            stay = Candidate(dead_end=False, length=0.0, number=0, attitude=self._problem.start)
+            stay.motion = Motion(self._problem.agent, self._problem.start)
+            yield self._answer(stay)
         for round_number in range(self._parameters.rounds):
             self._add_candidates(round_number)
-            if not self._candidates and not self._found:
-                self.proof = self.proof or self._prove()
+            if round_number == 0 and not self._candidates and not self._found:
+                self.proof = self._prove()
                 if self.proof:
                     return
-            planned: list[_Candidate] = []
-            while self._candidates or planned:
-                best = min(planned, default=None)
-                enough = len(planned) >= self._parameters.paths_per_answer or self._has_failed
-                if best and (enough or not self._candidates or best < self._candidates[0]):
-                    planned.remove(best)
-                    yield self._answer(best)
-                    planned = [other for other in planned if self._is_new(other.attitude)]
-                elif self._has_failed:
+            for share in SHARES:
+                self._share = share
+                yield from self._answers()
+                if self._has_failed:
                     return
-                else:
-                    candidate = heapq.heappop(self._candidates)
-                    if self._is_new(candidate.attitude) and self._plan(candidate):
-                        planned.append(candidate)
+                self._candidates, self._alike = self._alike, []
+                heapq.heapify(self._candidates)
+
+    def _answers(self) -> Iterator[Found]:
+        """Motions to candidates that are new, as much as is asked for now; others are laid aside."""
+        planned: list[Candidate] = []
+        while self._candidates or planned:
+            best = min(planned, default=None)
+            enough = len(planned) >= self._parameters.paths_per_answer or self._has_failed
+            if best and (enough or not self._candidates or best < self._candidates[0]):
+                planned.remove(best)
+                yield self._answer(best)
+                self._alike += [other for other in planned if not self._is_new(other.attitude)]
+                planned = [other for other in planned if self._is_new(other.attitude)]
+            elif self._has_failed:
+                return
+            else:
+                candidate = heapq.heappop(self._candidates)
+                if not self._is_new(candidate.attitude):
+                    self._alike.append(candidate)
+                elif candidate.motion or self._plan(candidate):
+                    planned.append(candidate)
 
     @property
     def _has_failed(self) -> bool:
@@ -120,9 +152,10 @@ class Stream:
 
     def _prove(self) -> Impossible | None:
         hopeful = hopeful_cells(self._problem, self._ground)
-        return walled_off(self._problem, self._ground, hopeful)
+        proof = walled_off(self._problem, self._ground, hopeful)
+        return proof or no_attitude(self._problem, self._ground)
 
-    def _answer(self, candidate: _Candidate) -> Found:
+    def _answer(self, candidate: Candidate) -> Found:
         assert candidate.motion is not None
         tried, self.tried = self.tried, Tried(self._problem.agent)
         self._failures = 0
@@ -138,12 +171,15 @@ class Stream:
                 self._ground.scene.world.bounds,
                 np.random.default_rng([self._seed, round_number]),
                 self._parameters.destinations,
+                self._ground.room,
             )
         )
         free = self._ground.is_free(states)
         here = self._ground.part_of(self._problem.start)
         near = self._ground.parts_of(states) == here
         estimates = self._ground.estimates(self._problem.start, states)
+        if len(states):
+            self._spread = max(self._spread, float(np.ptp(states[:, :2], axis=0).max()))
         for state, is_free, is_near, estimate in zip(states, free, near, estimates, strict=True):
             attitude = Attitude(*(float(number) for number in state))
             if not all(_differ(attitude, seen, SAME, SAME) for seen in self._seen):
@@ -158,10 +194,10 @@ class Stream:
             else:
                 stays = attitude == self._problem.start
                 dead_end = not stays and not self._ground.can_turn_round(attitude)
-                candidate = _Candidate(dead_end, float(estimate), len(self._seen), attitude)
+                candidate = Candidate(dead_end, float(estimate), len(self._seen), attitude)
                 heapq.heappush(self._candidates, candidate)
 
-    def _plan(self, candidate: _Candidate) -> bool:
+    def _plan(self, candidate: Candidate) -> bool:
         """Find a motion to the candidate and verify it where it ends."""
         self._check_time()
         start, goal = self._problem.start, candidate.attitude
@@ -191,8 +227,10 @@ class Stream:
         return True
 
     def _is_new(self, attitude: Attitude) -> bool:
-        """Whether ``attitude`` really differs from all that was answered before."""
-        far, turned = self._parameters.alternative_distance, self._parameters.alternative_heading
+        """Whether ``attitude`` differs from all that was answered before, as much as asked for now."""
+        parameters, share = self._parameters, self._share
+        far = max(parameters.alternative_distance, share * self._spread)
+        turned = max(parameters.alternative_heading, share * pi)
         return all(_differ(attitude, found.end, far, turned) for found in self._found)
 
     def _check_time(self) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 
 @dataclass(frozen=True, slots=True)
@@ -13,6 +13,13 @@ class Attitude:
     x: float
     y: float
     heading: float
+
+
+#: Components of the state vector of a model that moves in attitudes, in order: gradients have it.
+COMPONENTS = tuple(field.name for field in fields(Attitude))
+
+#: Those of them that are angles: equal modulo 2 pi.
+ANGULAR_COMPONENTS = ('heading',)
 
 
 @dataclass(frozen=True, slots=True)

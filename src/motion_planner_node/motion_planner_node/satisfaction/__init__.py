@@ -1,9 +1,12 @@
 """Satisfying geometric constraints: penalty descent from many starts, and proofs that none can."""
 
+from motion_planner_node.satisfaction.branch_and_prune import branch_and_prune
 from motion_planner_node.satisfaction.cells import Cells, possible_cells
+from motion_planner_node.satisfaction.conflicts import separation, together, unsolved
 from motion_planner_node.satisfaction.descent import Descent, DescentOptions, descend
 from motion_planner_node.satisfaction.destinations import destinations, from_start, restarts
 from motion_planner_node.satisfaction.program import TOLERANCE, Program, compile_program
+from motion_planner_node.satisfaction.room import Room
 from motion_planner_node.satisfaction.row import wrap
 
 __all__ = [
@@ -12,11 +15,16 @@ __all__ = [
     'Descent',
     'DescentOptions',
     'Program',
+    'Room',
+    'branch_and_prune',
     'compile_program',
     'descend',
     'destinations',
     'from_start',
     'possible_cells',
     'restarts',
+    'separation',
+    'together',
+    'unsolved',
     'wrap',
 ]

@@ -10,6 +10,8 @@ from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.satisfaction.cells import possible_cells
 from motion_planner_node.satisfaction.descent import Descent, descend
 from motion_planner_node.satisfaction.program import Program
+from motion_planner_node.satisfaction.room import ANYWHERE, Room, within
+from motion_planner_node.world.clearance import clearances
 from motion_planner_node.world.model import Bounds
 
 #: Descents for each destination that is wanted.
@@ -22,12 +24,18 @@ _HEADING_WEIGHT = 0.5
 _SAME = 1e-6
 
 
-def from_start(program: Program, start: Attitude) -> Descent:
+def from_start(program: Program, start: Attitude, room: Room = ANYWHERE) -> Descent:
     """The descent from ``start`` alone, with which Algorithm 1 begins."""
-    return descend(program, np.array([[start.x, start.y, start.heading]]))
+    return descend(program, np.array([[start.x, start.y, start.heading]]), room=room)
 
 
-def restarts(program: Program, bounds: Bounds, rng: np.random.Generator, count: int) -> Descent:
+def restarts(
+    program: Program,
+    bounds: Bounds,
+    rng: np.random.Generator,
+    count: int,
+    room: Room = ANYWHERE,
+) -> Descent:
     """``count`` descents from random attitudes, spread evenly over where they can succeed.
 
     Line 13 of Algorithm 1. Where no place can, the attitudes are spread over the whole map.
@@ -39,37 +47,51 @@ def restarts(program: Program, bounds: Bounds, rng: np.random.Generator, count: 
     along = rng.random((count, 3))
     x = cells.x_lo[chosen] + along[:, 0] * (cells.x_hi - cells.x_lo)[chosen]
     y = cells.y_lo[chosen] + along[:, 1] * (cells.y_hi - cells.y_lo)[chosen]
-    return descend(program, np.column_stack((x, y, np.pi * (1.0 - 2.0 * along[:, 2]))))
+    states = np.column_stack((x, y, np.pi * (1.0 - 2.0 * along[:, 2])))
+    return descend(program, states, room=room)
 
 
 def destinations(
-    program: Program, start: Attitude, bounds: Bounds, rng: np.random.Generator, count: int
+    program: Program,
+    start: Attitude,
+    bounds: Bounds,
+    rng: np.random.Generator,
+    count: int,
+    room: Room | None = None,
 ) -> Array:
-    """At most ``count`` different attitudes (k, 3) within ``bounds`` that satisfy the program.
+    """At most ``count`` different attitudes (k, 3) in ``room`` that satisfy the program.
 
     The descent from ``start`` comes first if it succeeds; each further attitude is the one farthest
-    from those before it. Where too few descents end within ``bounds``, those are asked for like
-    constraints. A program that says nothing about the attitude is satisfied at ``start``
-    or nowhere.
+    from those before it. Descents that end in an obstacle, or outside ``bounds``, go on from there
+    with the obstacles as one more constraint, which pushes them out. Without a ``room`` there are
+    no obstacles. Only where no destination is free, blocked ones on the map are given. A program
+    that says nothing about the attitude is satisfied at ``start`` or nowhere.
     """
-    first = _good(from_start(program, start), bounds)
-    if not program.depends_on_attitude:
-        return first
-    confined = program.confined(bounds)
-    if not len(first):
-        first = _good(from_start(confined, start), bounds)
-    tries = int(np.ceil(_OVERSAMPLING * count))
-    found = np.concatenate((first, _good(restarts(program, bounds, rng, tries), bounds)))
-    if len(found) < count:
-        found = np.concatenate((found, _good(restarts(confined, bounds, rng, tries), bounds)))
+    room = within(bounds) if room is None else room
+    descent = from_start(program, start)
+    free, blocked = _sorted_out(program, descent, room)
+    if program.depends_on_attitude:
+        tries = int(np.ceil(_OVERSAMPLING * count))
+        more = _sorted_out(program, restarts(program, bounds, rng, tries), room)
+        free, blocked = np.concatenate((free, more[0])), np.concatenate((blocked, more[1]))
+    found = free if len(free) else blocked
     return found[_farthest_points(found, count)]
 
 
-def _good(descent: Descent, bounds: Bounds) -> Array:
-    """The states of ``descent`` that are satisfied and within ``bounds``."""
-    x, y = descent.states[:, 0], descent.states[:, 1]
-    inside = (x >= bounds.x_min) & (x <= bounds.x_max) & (y >= bounds.y_min) & (y <= bounds.y_max)
-    return descent.states[descent.satisfied & inside]
+def _sorted_out(program: Program, descent: Descent, room: Room) -> tuple[Array, Array]:
+    """Where the descents end that satisfy the program: in free places, and in blocked ones.
+
+    Those that have ended in an obstacle are first pushed out of it.
+    """
+    blocked = clearances(room.shapes, descent.states) < room.clearance
+    free = descent.states[descent.satisfied & ~blocked]
+    if not blocked.any():
+        return free, descent.states[:0]
+    again = descend(program, descent.states[blocked], room=room)
+    free = np.concatenate((free, again.states[again.satisfied]))
+    low, high = room.shapes.bounds[:2], room.shapes.bounds[2:]
+    on_map = ((low <= descent.states[:, :2]) & (descent.states[:, :2] <= high)).all(axis=1)
+    return free, descent.states[descent.satisfied & blocked & on_map]
 
 
 def _farthest_points(states: Array, count: int) -> NDArray[np.int64]:

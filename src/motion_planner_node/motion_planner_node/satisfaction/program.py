@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from copy import copy
+from functools import cached_property
 from math import isfinite, isnan, pi
 from typing import Literal
 
@@ -10,20 +13,22 @@ from numpy.typing import NDArray
 
 from motion_planner_node.codes import Code
 from motion_planner_node.errors import Diagnostic, MotionPlannerError
-from motion_planner_node.functions import COMPONENTS, Array, Dual, Interval
-from motion_planner_node.language.check import check, is_periodic
+from motion_planner_node.functions import COMPONENTS, Array, Dual, Interval, surroundings_of
+from motion_planner_node.language.check import check, compared
 from motion_planner_node.language.printer import to_text
 from motion_planner_node.language.syntax import (
     Command,
+    Condition,
     Constraint,
-    Number,
     Preconditions,
     Property,
 )
 from motion_planner_node.language.tape import Tape
 from motion_planner_node.requests import Residual
 from motion_planner_node.robots.motion import Attitude, GeometricState
-from motion_planner_node.satisfaction.cells import Cells, contradiction, possible
+from motion_planner_node.satisfaction.cells import Cells, possible_positions
+from motion_planner_node.satisfaction.conflicts import contradiction
+from motion_planner_node.satisfaction.recording import Table, record
 from motion_planner_node.satisfaction.row import Row, wrap_angle
 from motion_planner_node.world.model import Bounds, World
 
@@ -66,7 +71,7 @@ class Program:
         self._fields = {label: world.objects[label].fields for label in self.objects}
         self.start = self.apply_commands(start)
         places = self._fields | _components(self.start, self.agents)
-        self._tape = Tape(agent, places)
+        self._tape = Tape(agent, places, surroundings_of(world))
         self.rows = tuple(self._row(item) for item in preconditions.constraints)
         self.constraints = tuple(row.text for row in self.rows)
         largest = max(
@@ -84,7 +89,7 @@ class Program:
         for command in self._preconditions.commands:
             target, expression = command.arguments
             assert isinstance(target, Property)
-            tape = Tape('', self._fields | components)
+            tape = Tape('', self._fields | components, surroundings_of(self._world))
             value = tape.constant(tape.slot(expression))
             if value is None or not isfinite(value):
                 raise _not_assignable(command, value)
@@ -100,19 +105,6 @@ class Program:
                 )
         return {label: Attitude(**known) for label, known in components.items()}
 
-    def confined(self, bounds: Bounds) -> Program:
-        """The program that also asks for a position within ``bounds``, after the commands."""
-        x, y = Property(self.agent, 'x'), Property(self.agent, 'y')
-        sides = (
-            Constraint(x, '>=', Number(bounds.x_min)),
-            Constraint(x, '<=', Number(bounds.x_max)),
-            Constraint(y, '>=', Number(bounds.y_min)),
-            Constraint(y, '<=', Number(bounds.y_max)),
-        )
-        preconditions = self._preconditions
-        asked = Preconditions(preconditions.statements, (*preconditions.constraints, *sides))
-        return Program(asked, self._world, self.start, self.agent, self.contradictions)
-
     def functions(
         self, states: Array, *, derivatives: Literal['none', 'truncated', 'full'] = 'none'
     ) -> list[Dual]:
@@ -121,6 +113,14 @@ class Program:
         A constraint holds where its function is at most 0 (below 0 if strict, 0 if an equality).
         Angles are the difference of the sides wrapped to [-pi, pi]. Undefined ones are NaN.
         """
+        with np.errstate(all='ignore'):
+            sides = self.sides(states, derivatives=derivatives)
+            return [row.function(*pair) for row, pair in zip(self.rows, sides, strict=True)]
+
+    def sides(
+        self, states: Array, *, derivatives: Literal['none', 'truncated', 'full'] = 'none'
+    ) -> list[tuple[Dual, Dual]]:
+        """The left and right sides of the constraints at ``states`` (n, 3)."""
         columns = np.ascontiguousarray(states.T)
         if derivatives == 'none':
             state = [Dual(column) for column in columns]
@@ -130,11 +130,43 @@ class Program:
             state = [Dual(column, unit[:, i : i + 1] * ones) for i, column in enumerate(columns)]
         with np.errstate(all='ignore'):
             values = self._tape.run(state, Dual.constant, truncated=derivatives == 'truncated')
-            return [row.function(values[row.left], values[row.right]) for row in self.rows]
+        return [(values[row.left], values[row.right]) for row in self.rows]
 
-    def bounds(self, x: Interval, y: Interval) -> list[Interval]:
-        """Bounds of the functions f_i over boxes of positions, whatever the heading."""
-        heading = Interval(np.float64(-pi), np.float64(pi))
+    @cached_property
+    def table(self) -> Table | None:
+        """The functions f_i as primitive operations, or None when one of them is not primitive."""
+        return record(self._tape, self.rows)
+
+    @cached_property
+    def conditions(self) -> Array:
+        """Of each constraint whether it is an equality, periodic, strict, and where to stop: (m, 4).
+
+        A descent can stop when equalities hold within half the tolerance, and inequalities within
+        three quarters of their margin.
+        """
+        rows = [
+            (row.is_equality, row.periodic, row.is_strict, 0.5 if row.is_equality else 1.5)
+            for row in self.rows
+        ]
+        return np.array(rows, dtype=np.float64).reshape(-1, 4) * [1.0, 1.0, 1.0, self.tolerance]
+
+    def differences(self, states: Array, told: Array, *, is_truncated: bool) -> None:
+        """Fill ``told`` (n, m or more, 4) with the functions f_i of ``states`` and their slopes."""
+        derivatives: Literal['truncated', 'full'] = 'truncated' if is_truncated else 'full'
+        for index, function in enumerate(self.functions(states, derivatives=derivatives)):
+            told[:, index, 0] = function.value
+            if function.gradient is not None:
+                told[:, index, 1:] = function.gradient.T
+
+    @cached_property
+    def uses_heading(self) -> bool:
+        """Whether some function seems to depend on the heading, as seen at a few attitudes."""
+        states = np.random.default_rng(0).uniform(-3.0, 3.0, (8, 3))
+        slopes = [function.gradient for function in self.functions(states, derivatives='full')]
+        return any(slope is not None and bool(np.any(slope[2] != 0.0)) for slope in slopes)
+
+    def bounds(self, x: Interval, y: Interval, heading: Interval) -> list[Interval]:
+        """Bounds of the functions f_i over boxes of attitudes, headings within [-pi, pi]."""
         with np.errstate(all='ignore'):
             values = self._tape.run((x, y, heading), Interval.constant)
             return [row.bounds(values[row.left], values[row.right]) for row in self.rows]
@@ -143,11 +175,26 @@ class Program:
         self, x_lo: Array, x_hi: Array, y_lo: Array, y_hi: Array
     ) -> NDArray[np.bool_]:
         """Which boxes of positions (n,) may hold a destination: False where provably none does."""
-        return possible(self, Cells(x_lo, x_hi, y_lo, y_hi))
+        return possible_positions(self, Cells(x_lo, x_hi, y_lo, y_hi))
 
     def contradiction(self, bounds: Bounds) -> str | None:
         """A sentence when provably no attitude within ``bounds`` satisfies the program."""
         return contradiction(self, bounds)
+
+    def only(self, rows: Sequence[int]) -> Program:
+        """The program with only the constraints number ``rows``."""
+        part = copy(self)
+        for name in ('table', 'conditions', 'uses_heading'):
+            vars(part).pop(name, None)
+        part.rows = tuple(self.rows[index] for index in rows)
+        part.constraints = tuple(row.text for row in part.rows)
+        return part
+
+    def position(self, label: str) -> tuple[float, float]:
+        """Where [m] an object, or an agent that does not move, is."""
+        if label in self._fields:
+            return self._fields[label]['x'], self._fields[label]['y']
+        return self.start[label].x, self.start[label].y
 
     def violations(self, states: Array) -> Array:
         """By how much ``states`` (n, 3) miss each of the m constraints: (n, m), 0 where it holds.
@@ -188,12 +235,11 @@ class Program:
     def unmet(self, attitude: Attitude) -> tuple[str, ...]:
         """A sentence for each constraint that ``attitude`` misses, with the value that it has."""
         state = np.array([[attitude.x, attitude.y, attitude.heading]])
-        columns = [Dual(column) for column in state.T]
-        with np.errstate(all='ignore'):
-            values = self._tape.run(columns, Dual.constant)
         return tuple(
-            f'{row.text} not met: {_shown(values[row.left], row)}'
-            for row, residual in zip(self.rows, self.residuals(attitude), strict=True)
+            f'{row.text} not met: {_shown(left, row)}'
+            for row, (left, _), residual in zip(
+                self.rows, self.sides(state), self.residuals(attitude), strict=True
+            )
             if not residual.satisfied
         )
 
@@ -204,20 +250,28 @@ class Program:
             self._tape.constant(slot) is None for row in self.rows for slot in (row.left, row.right)
         )
 
-    def _row(self, constraint: Constraint) -> Row:
+    def _row(self, item: Constraint | Condition) -> Row:
+        constraint, periodic = compared(item, self.agents)
         return Row(
-            text=to_text(constraint),
+            text=to_text(item),
+            constraint=constraint,
             comparator=constraint.comparator,
             left=self._tape.slot(constraint.left),
             right=self._tape.slot(constraint.right),
-            periodic=is_periodic(constraint, self.agents),
+            periodic=periodic,
         )
 
 
 def compile_program(
-    preconditions: Preconditions, world: World, start: GeometricState, agent: str = ''
+    preconditions: Preconditions,
+    world: World,
+    start: GeometricState,
+    agent: str = '',
+    remarks: Sequence[Diagnostic] | None = None,
 ) -> Program:
     """Compile ground preconditions for ``agent``, or else for the first one that they state.
+
+    ``remarks`` are those of ``language.check`` for the same text and world, where they are known.
 
     Raises MotionPlannerError with all that ``language.check`` finds except contradictions, which
     the program itself proves (``contradiction``); UNKNOWN_AGENT when ``agent`` is not stated;
@@ -227,7 +281,7 @@ def compile_program(
         names = ', '.join(sorted(preconditions.variables))
         message = f'the preconditions are not ground: {names}'
         raise MotionPlannerError(Code.INVALID_PRECONDITIONS, message)
-    found = check(preconditions, world)
+    found = check(preconditions, world) if remarks is None else remarks
     errors = [diagnostic for diagnostic in found if diagnostic.code is not Code.CONTRADICTION]
     if errors:
         raise MotionPlannerError.from_diagnostics(errors)

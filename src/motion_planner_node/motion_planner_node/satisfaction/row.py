@@ -8,13 +8,18 @@ from math import pi
 import numpy as np
 
 from motion_planner_node.functions import Array, Dual, Interval
+from motion_planner_node.language.syntax import Constraint
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One constraint: the slots of its sides on the tape, and whether it equates angles."""
+    """One constraint: the slots of its sides on the tape, and whether it equates angles.
+
+    ``text`` is what was written, ``constraint`` the comparison that it stands for.
+    """
 
     text: str
+    constraint: Constraint
     comparator: str
     left: int
     right: int
@@ -44,10 +49,14 @@ class Row:
         return function
 
     def bounds(self, left: Interval, right: Interval) -> Interval:
-        """Bounds of ``function``."""
-        if self.periodic:
-            return Interval(np.float64(-pi), np.float64(pi))
-        return right - left if self.is_reversed else left - right
+        """Bounds of ``function``; those of angles may go on beyond pi, but lie round zero."""
+        function = right - left if self.is_reversed else left - right
+        if not self.periodic:
+            return function
+        narrow = function.high - function.low < 2.0 * pi
+        turns = np.where(narrow, np.round((function.low + function.high) / (4.0 * pi)), 0.0)
+        shifted = function - Interval.constant(2.0 * pi) * Interval(turns, turns)
+        return Interval(np.where(narrow, shifted.low, -pi), np.where(narrow, shifted.high, pi))
 
 
 def wrap(angles: Array) -> Array:

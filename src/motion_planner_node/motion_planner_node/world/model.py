@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import tan
+from typing import ClassVar
 
-from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.motion import COMPONENTS, Attitude
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +47,9 @@ class Circle:
 
 Obstacle = Polygon | Circle
 
+#: A named part of the map that constraints can speak of; robots may enter it.
+Region = Polygon | Circle
+
 
 @dataclass(frozen=True, slots=True)
 class CarModel:
@@ -53,6 +57,9 @@ class CarModel:
 
     ``radius`` [m] is the disc around (x, y) that has to stay clear of obstacles and in the map.
     """
+
+    #: Components of the state vector, which constraints and commands can name.
+    components: ClassVar[tuple[str, ...]] = COMPONENTS
 
     label: str
     wheelbase: float
@@ -77,3 +84,4 @@ class World:
     objects: Mapping[str, WorldObject]
     obstacles: tuple[Obstacle, ...]
     robots: Mapping[str, CarModel]
+    regions: Mapping[str, Region] = field(default_factory=dict)

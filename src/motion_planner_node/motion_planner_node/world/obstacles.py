@@ -1,10 +1,12 @@
-"""Obstacles of a world file: polygons and circles, each with a name of its own."""
+"""Outlines in a world file: polygons and circles, each with a name of its own."""
 
 from __future__ import annotations
 
+from collections.abc import Container
+
 import numpy as np
 
-from motion_planner_node.world.model import Circle, Obstacle, Polygon
+from motion_planner_node.world.model import Circle, Obstacle, Polygon, Region
 from motion_planner_node.world.scene import MAP_EDGE
 from motion_planner_node.world.simple_polygon import SMALLEST_AREA, area, crossing_edges
 from motion_planner_node.world.syntax import Mapping, Node, Sequence
@@ -12,6 +14,7 @@ from motion_planner_node.world.values import (
     SMALLEST_LENGTH,
     Faults,
     check_count,
+    check_label,
     kind_of,
     read_at_least,
     read_fields,
@@ -20,6 +23,7 @@ from motion_planner_node.world.values import (
 )
 
 MOST_OBSTACLES = 10_000
+MOST_REGIONS = 1_000
 MOST_CORNERS = 1_000
 
 
@@ -48,6 +52,39 @@ def read_obstacles(node: Node, faults: Faults) -> tuple[Obstacle, ...]:
         elif 'circle' in fields:
             obstacles.append(_circle(fields['circle'], name, faults))
     return tuple(obstacle for obstacle in obstacles if obstacle is not None)
+
+
+def read_regions(node: Node, taken: Container[str], faults: Faults) -> dict[str, Region]:
+    """The regions of a list by name, which is a label that is not ``taken`` by anything else."""
+    regions: dict[str, Region] = {}
+    if not isinstance(node, Sequence):
+        faults.add(f'regions has to be a list, not {kind_of(node)}', node.place)
+        return regions
+    if not check_count(node, 'regions', MOST_REGIONS, faults):
+        return regions
+    for number, item in enumerate(node.items, 1):
+        what = f'region {number}'
+        fields = read_fields(item, what, ('name',), ('polygon', 'circle'), faults)
+        if isinstance(item, Mapping) and ('polygon' in fields) == ('circle' in fields):
+            faults.add(f'{what} needs either polygon or circle', item.place)
+            continue
+        name = (
+            read_text(fields['name'], f'the name of {what}', faults) if 'name' in fields else None
+        )
+        if name is None:
+            continue
+        place = fields['name'].place
+        check_label(name, place, 'a region', faults)
+        if name in regions or name in taken:
+            other = 'another region' if name in regions else 'an object or a robot'
+            faults.add(f'{name} is the name of {other}, too', place, name)
+        if 'polygon' in fields:
+            region: Region | None = _polygon(fields['polygon'], name, faults)
+        else:
+            region = _circle(fields['circle'], name, faults)
+        if region is not None:
+            regions[name] = region
+    return regions
 
 
 def _name(fields: dict[str, Node], what: str, lines: dict[str, int], faults: Faults) -> str | None:

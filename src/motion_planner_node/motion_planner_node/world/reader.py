@@ -1,4 +1,4 @@
-"""World files: YAML with ``bounds``, ``objects``, ``obstacles`` and ``robots``; see docs/world.md."""
+"""World files: YAML with ``bounds``, ``objects``, ``obstacles``, ``robots``, ``regions``; see docs/world.md."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from math import pi, tan
 from motion_planner_node.robots.arcs import wrap_angle
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.world.model import Bounds, CarModel, World, WorldObject
-from motion_planner_node.world.obstacles import read_obstacles
+from motion_planner_node.world.obstacles import read_obstacles, read_regions
 from motion_planner_node.world.revision import revision_of
 from motion_planner_node.world.scene import Scene, required_clearance
 from motion_planner_node.world.syntax import Mapping, Node, Place, read_tree
@@ -43,18 +43,24 @@ class _WorldReader:
 
     def read(self, root: Node) -> World:
         parts = read_fields(
-            root, 'the world', ('bounds',), ('objects', 'obstacles', 'robots'), self._faults
+            root,
+            'the world',
+            ('bounds',),
+            ('objects', 'obstacles', 'robots', 'regions'),
+            self._faults,
         )
         given = {key: node for key, node in parts.items() if not is_nothing(node)}
         bounds = self._bounds(given['bounds']) if 'bounds' in given else None
         objects = self._objects(given['objects'], bounds) if 'objects' in given else {}
         obstacles = read_obstacles(given['obstacles'], self._faults) if 'obstacles' in given else ()
         robots = self._robots(given['robots'], objects) if 'robots' in given else {}
+        taken = {*objects, *robots}
+        regions = read_regions(given['regions'], taken, self._faults) if 'regions' in given else {}
         if bounds is None:
             if 'bounds' in parts and 'bounds' not in given:
                 self._faults.add('bounds are empty', parts['bounds'].place)
             raise self._faults.error()
-        world = World(self._source, '', bounds, objects, obstacles, robots)
+        world = World(self._source, '', bounds, objects, obstacles, robots, regions)
         self._check_starts(world)
         if self._faults:
             raise self._faults.error()

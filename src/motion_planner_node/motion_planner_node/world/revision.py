@@ -17,5 +17,7 @@ def revision_of(world: World) -> str:
         'obstacles': [asdict(obstacle) for obstacle in world.obstacles],
         'robots': {label: asdict(robot) for label, robot in world.robots.items()},
     }
+    if world.regions:
+        content['regions'] = {label: asdict(region) for label, region in world.regions.items()}
     canonical = json.dumps(content, sort_keys=True, separators=(',', ':'))
     return hashlib.sha256(canonical.encode()).hexdigest()[:16]

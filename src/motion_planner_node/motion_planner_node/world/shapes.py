@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from motion_planner_node.world.model import Polygon, World
+from motion_planner_node.world.model import Bounds, Circle, Polygon, Region, World
 
 
 class Shapes(NamedTuple):
@@ -29,6 +31,15 @@ class Shapes(NamedTuple):
 
 def shapes_of(world: World) -> tuple[Shapes, tuple[str, ...]]:
     """The arrays of ``world``, and the names of the obstacles in the order of the arrays."""
+    return _shapes(world.bounds, world.obstacles)
+
+
+def shapes_of_region(region: Region) -> Shapes:
+    """The arrays of one region, without any bounds: the distance from it is its clearance."""
+    return _shapes(Bounds(-inf, -inf, inf, inf), (region,))[0]
+
+
+def _shapes(bounds: Bounds, outlines: Iterable[Polygon | Circle]) -> tuple[Shapes, tuple[str, ...]]:
     edges: list[tuple[float, float, float, float]] = []
     first_edge = [0]
     discs: list[tuple[float, float, float]] = []
@@ -36,7 +47,7 @@ def shapes_of(world: World) -> tuple[Shapes, tuple[str, ...]]:
     disc_boxes: list[tuple[float, float, float, float]] = []
     polygon_names: list[str] = []
     disc_names: list[str] = []
-    for obstacle in world.obstacles:
+    for obstacle in outlines:
         if isinstance(obstacle, Polygon):
             following = obstacle.corners[1:] + obstacle.corners[:1]
             edges += [(*a, *b) for a, b in zip(obstacle.corners, following, strict=True) if a != b]
@@ -49,7 +60,6 @@ def shapes_of(world: World) -> tuple[Shapes, tuple[str, ...]]:
             discs.append((x, y, radius))
             disc_boxes.append((x - radius, y - radius, x + radius, y + radius))
             disc_names.append(obstacle.name)
-    bounds = world.bounds
     shapes = Shapes(
         bounds=np.array([bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max], float),
         edges=np.array(edges, float).reshape(-1, 4),

@@ -1,0 +1,99 @@
+"""How fast one destination is found, alone and in batches, beside the peers on the same starts."""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Callable, Sequence
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from experiments.constraints.formulations import FORMULATIONS
+from experiments.constraints.peers import PEERS, wrapped
+from experiments.constraints.search import Bench
+from experiments.constraints.sets import ConstraintSet
+from motion_planner_node.satisfaction import descend
+
+Array = NDArray[np.float64]
+#: Violation [m or rad] up to which a result counts as a success, the motion planner's or a peer's.
+TOLERANCE = 1e-6
+OURS = 'motion planner'
+BATCHES = (256, 1024)
+#: Repetitions of a batch; the median counts.
+REPETITIONS = 5
+
+
+def compare(bench: Bench, constraints: ConstraintSet, starts: Array, seed: int) -> dict[str, Any]:
+    """Median time [us] and success rate of one start after the other, and of batches."""
+    rows = FORMULATIONS[constraints.name]
+
+    def succeeds(state: Array) -> bool:
+        # Peers may leave the map: only the constraints themselves count here.
+        return bench.judge.violation(constraints, wrapped(state), bounded=False) <= TOLERANCE
+
+    program = bench.program(constraints)
+    methods: dict[str, Any] = {
+        OURS: _alone(lambda start: descend(program, start[None]).states[0], starts, succeeds)
+    }
+    for name, make in PEERS.items():
+        began = perf_counter()
+        solve = make(rows)
+        built = perf_counter() - began
+        methods[name] = {'build_ms': 1e3 * built, **_alone(solve, starts, succeeds)}
+    batches = {}
+    for size in BATCHES:
+        batch = bench.starts(seed, size)
+        times = []
+        for _ in range(REPETITIONS):
+            began = perf_counter()
+            descent = descend(program, batch)
+            times.append(perf_counter() - began)
+        solved = sum(map(succeeds, descent.states[descent.satisfied]))
+        batches[size] = {
+            'us_per_destination': 1e6 * statistics.median(times) / max(solved, 1),
+            'success': solved / size,
+        }
+    return {'methods': methods, 'batches': batches, **_ratios(methods, batches)}
+
+
+def _alone(
+    solve: Callable[[Array], Array], starts: Array, succeeds: Callable[[Array], bool]
+) -> dict[str, float]:
+    times, successes = [], 0
+    began = perf_counter()
+    solve(starts[0])
+    first = perf_counter() - began
+    for start in starts:
+        began = perf_counter()
+        state = solve(start)
+        times.append(perf_counter() - began)
+        successes += succeeds(state)
+    return {
+        'first_us': 1e6 * first,
+        'median_us': 1e6 * statistics.median(times),
+        'success': successes / len(starts),
+    }
+
+
+def _ratios(methods: dict[str, Any], batches: dict[int, Any]) -> dict[str, Any]:
+    """How often our time fits into the best peer's; the best is the fastest per destination."""
+
+    def per_destination(name: str) -> float:
+        figures = methods[name]
+        return float(figures['median_us'] / figures['success'] if figures['success'] else np.inf)
+
+    best = min(PEERS, key=per_destination)
+    least = min(batch['us_per_destination'] for batch in batches.values())
+    return {
+        'best_peer': best,
+        'times_faster_alone': per_destination(best) / per_destination(OURS),
+        'times_faster_in_batches': per_destination(best) / least,
+        'success_over_best_peer': methods[OURS]['success'] - methods[best]['success'],
+    }
+
+
+def median_ratio(comparisons: Sequence[dict[str, Any]], key: str) -> float:
+    """The middle of a ratio over the sets."""
+    return float(statistics.median(comparison[key] for comparison in comparisons))
