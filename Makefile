@@ -23,7 +23,7 @@ mission: setup ## Plan the paper's rover mission with the three nodes; results i
 
 test: setup ## Check format, lint and types, then run all tests
 	@status=0; \
-	for check in 'ruff format --check .' 'ruff check .' $(TYPECHECKS) pytest; do \
+	for check in 'ruff format --check .' 'ruff check .' $(TYPECHECKS) 'pytest --hypothesis-profile=ci'; do \
 	  echo "== $$check"; $(RUN) $$check || status=1; \
 	done; exit $$status
 

@@ -56,13 +56,17 @@ def arguments() -> list[DeclareLaunchArgument]:
     ]
 
 
+#: Nodes that were started together wait longer for each other: discovery takes its time.
+JUST_STARTED = {'interface_node': [{'peer_timeout': 15.0}]}
+
+
 def node(name: str) -> Node:
     """One of the three nodes: package and executable have its name."""
     return Node(
         package=name,
         executable=name,
         namespace=LaunchConfiguration('namespace'),
-        parameters=[LaunchConfiguration('params_file')],
+        parameters=[*JUST_STARTED.get(name, ()), LaunchConfiguration('params_file')],
         ros_arguments=['--log-level', LaunchConfiguration('log_level')],
         output='screen',
     )

@@ -75,7 +75,8 @@ def test_a_node_is_started_with_its_settings(install: Install, tmp_path: Path) -
     text = ' '.join(arguments)
     assert '--log-level debug' in text
     assert '-r __ns:=/team/a' in text
-    assert '--params-file p.yaml' in text
+    # What the user sets comes after, and so wins over, what nodes that start together need.
+    assert '-p peer_timeout:=15.0 --params-file p.yaml' in text
     assert text.endswith('-p path_spacing:=2.0')
 
 

@@ -16,6 +16,9 @@ from interface_node.starting import start_command
 
 #: In the order of starting; package and executable have the name of the node.
 NODES = ('motion_planner_node', 'task_planner_node', 'interface_node')
+#: [s] for which nodes that were started together wait for each other: discovery takes its time, and
+#: one that ends is noticed by its process.
+PATIENCE = 15.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +46,8 @@ def node_command(node: str, settings: NodeSettings) -> list[str]:
     command.append('--disable-external-lib-logs')
     if settings.namespace:
         command += ['-r', f'__ns:=/{settings.namespace.strip("/")}']
+    if node == 'interface_node':
+        command += ['-p', f'peer_timeout:={PATIENCE}']
     if settings.parameters_file:
         command += ['--params-file', str(settings.parameters_file)]
     for owner, name, value in settings.parameters:
