@@ -15,6 +15,7 @@ from motion_planner_node.robots.car import sample
 from motion_planner_node.robots.motion import Attitude, Motion, Segment
 from motion_planner_node.world import MAP_EDGE, Scene
 from motion_planner_node.world.model import Bounds, CarModel, Circle, Obstacle, Polygon, World
+from motion_planner_node.world.signed_distance import clearances_with_slopes
 
 CAR = CarModel('rover', wheelbase=8.0, max_steering_angle=0.5, radius=5.0, speed=2.0)
 BOUNDS = Bounds(-20.0, -10.0, 120.0, 110.0)
@@ -172,3 +173,17 @@ def test_a_point_robot_does_not_pass_through_a_corner() -> None:
     past = Motion('rover', Attitude(10, 60.01, 0.0), (Segment(0.0, 90.0),))
     assert not Scene(world_of(diamond)).motion_is_free(through, point)
     assert Scene(world_of(diamond)).motion_is_free(past, point)
+
+
+@pytest.mark.parametrize('turned', [False, True])
+@pytest.mark.parametrize(
+    ('point', 'normal'),
+    [((40, 30), (-1, 0)), ((60, 30), (1, 0)), ((50, 20), (0, -1)), ((50, 50), (0, 1))],
+)
+def test_on_an_edge_the_clearance_grows_along_its_normal(
+    point: tuple[int, int], normal: tuple[int, int], turned: bool
+) -> None:
+    corners = ((40.0, 20.0), (60.0, 20.0), (60.0, 50.0), (40.0, 50.0))
+    block = Polygon('block', corners[::-1] if turned else corners)
+    found = clearances_with_slopes(Scene(world_of(block)).shapes, np.array([point], dtype=float))
+    assert found[0].tolist() == [0.0, *normal]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from motion_planner_node.robots.kernel import kernel
-from motion_planner_node.world.clearance import clearance_at
+from motion_planner_node.world.clearance import clearance_at, squared_distance_to_segment
 from motion_planner_node.world.shapes import Shapes
 
 
@@ -14,7 +14,7 @@ def clearance_with_slope(shapes: Shapes, x: float, y: float) -> tuple[float, flo
     """Clearance [m] at (x, y), negative inside obstacles, and its derivatives by x and y.
 
     The derivatives are a unit vector; where several obstacles or edges are nearest it points away
-    from one of them.
+    from one of them, and on an edge it is that edge's normal.
     """
     clearance, which = clearance_at(shapes, x, y)
     if which < 0:
@@ -28,7 +28,9 @@ def clearance_with_slope(shapes: Shapes, x: float, y: float) -> tuple[float, flo
         sign = -1.0 if clearance < 0.0 else 1.0
     length = sqrt((x - near_x) ** 2 + (y - near_y) ** 2)
     if length == 0.0:
-        return clearance, 1.0, 0.0
+        if which >= polygons:
+            return clearance, 1.0, 0.0
+        return clearance, *_out_of(shapes, which, x, y)
     return clearance, sign * (x - near_x) / length, sign * (y - near_y) / length
 
 
@@ -58,3 +60,18 @@ def _nearest_point(shapes: Shapes, polygon: int, x: float, y: float) -> tuple[fl
         if square < least:
             least, near_x, near_y = square, x0 + along * dx, y0 + along * dy
     return near_x, near_y
+
+
+@kernel
+def _out_of(shapes: Shapes, polygon: int, x: float, y: float) -> tuple[float, float]:
+    """The normal, pointing out of the polygon, of the edge that (x, y) lies on."""
+    least, normal_x, normal_y = inf, 1.0, 0.0
+    for i in range(shapes.first_edge[polygon], shapes.first_edge[polygon + 1]):
+        x0, y0, x1, y1 = shapes.edges[i]
+        square = squared_distance_to_segment(x, y, x0, y0, x1, y1)
+        if square < least:
+            length = sqrt((x1 - x0) ** 2 + (y1 - y0) ** 2)
+            least, normal_x, normal_y = square, (y1 - y0) / length, (x0 - x1) / length
+    step = 1e-6
+    clearance, _ = clearance_at(shapes, x + step * normal_x, y + step * normal_y)
+    return (normal_x, normal_y) if clearance > 0.0 else (-normal_x, -normal_y)
