@@ -23,15 +23,15 @@ Starter = Callable[..., tuple[Supervisor, 'Queue[tuple[str, str]]']]
 SLEEPER = """
 import signal, sys, time
 {handlers}
-print('up', flush=True)
-while True:
-    try:
+try:
+    print('up', flush=True)
+    while True:
         time.sleep(1000)
-    except KeyboardInterrupt:
-        print('interrupted', flush=True)
-        sys.exit(0)
+except KeyboardInterrupt:
+    print('interrupted', flush=True)
 """
-POLITE = SLEEPER.format(handlers='')
+# Also where the tests themselves were started with SIGINT ignored, as background jobs of scripts are.
+POLITE = SLEEPER.format(handlers='signal.signal(signal.SIGINT, signal.default_int_handler)')
 IGNORES_SIGINT = SLEEPER.format(handlers='signal.signal(signal.SIGINT, signal.SIG_IGN)')
 IGNORES_ALL = SLEEPER.format(
     handlers='signal.signal(signal.SIGINT, signal.SIG_IGN)\n'
