@@ -152,7 +152,7 @@ class Interval:
         return Interval(result.low, np.minimum(result.high, 1.0))
 
     def _least_magnitude(self) -> Array:
-        return np.maximum(np.maximum(self.low, -self.high), 0.0)
+        return np.asarray(np.maximum(np.maximum(self.low, -self.high), 0.0))
 
     def _greatest_magnitude(self) -> Array:
         return np.maximum(-self.low, self.high)
