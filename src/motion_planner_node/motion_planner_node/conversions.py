@@ -202,14 +202,17 @@ def world_to_msg(world: World) -> msg.World:
         robots=[
             msg.RobotModel(
                 label=label,
-                model='car',
-                wheelbase=float(car.wheelbase),
-                max_steering_angle=float(car.max_steering_angle),
-                radius=float(car.radius),
-                speed=float(car.speed),
-                start=[agent_state_to_msg(label, car.start)] if car.start else [],
+                model=robot.kind,
+                wheelbase=float(robot.wheelbase),
+                max_steering_angle=float(robot.max_steering_angle),
+                radius=float(robot.radius),
+                footprint=[Point(x=float(x), y=float(y)) for x, y in robot.footprint],
+                safety_margin=float(robot.safety_margin),
+                speed=float(robot.speed),
+                turning_speed=float(robot.turning_speed),
+                start=[agent_state_to_msg(label, robot.start)] if robot.start else [],
             )
-            for label, car in world.robots.items()
+            for label, robot in world.robots.items()
         ],
     )
 
@@ -261,7 +264,12 @@ def _motion_to_msg(motion: Motion) -> msg.Motion:
         agent=motion.agent,
         start=agent_state_to_msg(motion.agent, motion.start),
         segments=[
-            msg.Segment(steering_angle=float(segment.steering_angle), length=float(segment.length))
+            msg.Segment(
+                steering_angle=float(segment.steering_angle),
+                length=float(segment.length),
+                direction=float(segment.direction),
+                turn=float(segment.turn),
+            )
             for segment in motion.segments
         ],
         length=float(motion.length),

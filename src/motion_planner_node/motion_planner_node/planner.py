@@ -28,10 +28,10 @@ from motion_planner_node.requests import (
     GeometricRequest,
 )
 from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.world import Scene
 from motion_planner_node.world.model import (
     Bounds,
-    CarModel,
     Circle,
     Polygon,
     World,
@@ -56,7 +56,7 @@ class MotionPlanner:
         self.world = world
         self._parameters = parameters or Parameters()
         self._scene = Scene(world)
-        self._grounds: dict[CarModel, Ground] = {}
+        self._grounds: dict[Robot, Ground] = {}
         size = self._parameters.cache_size
         self._texts: Cache[str, Preconditions] = Cache(size)
         self._remarks: Cache[str, tuple[Diagnostic, ...]] = Cache(size)
@@ -82,7 +82,7 @@ class MotionPlanner:
                 return answers.assigned(problem, self._ground, request.alternative)
         except MotionPlannerError as error:
             return answers.refused(error, self.world.revision)
-        ground = self._ground(problem.car)
+        ground = self._ground(problem.robot)
         proof = contradiction(problem) or blocked_start(problem, ground)
         if proof:
             return answers.impossible(problem, ground, proof)
@@ -127,10 +127,10 @@ class MotionPlanner:
     def _parsed(self, text: str) -> Preconditions:
         return self._texts.get(text, lambda: parse(text))
 
-    def _ground(self, car: CarModel) -> Ground:
-        if car not in self._grounds:
-            self._grounds[car] = Ground(self._scene, car)
-        return self._grounds[car]
+    def _ground(self, robot: Robot) -> Ground:
+        if robot not in self._grounds:
+            self._grounds[robot] = Ground(self._scene, robot)
+        return self._grounds[robot]
 
 
 def warm_up() -> None:
@@ -139,7 +139,7 @@ def warm_up() -> None:
     Takes some ten seconds the first time and about one when the kernels are cached on disk.
     """
     agent, here = 'robot', Attitude(20.0, 10.0, 0.0)
-    car = CarModel(agent, wheelbase=1.0, max_steering_angle=0.5, radius=1.0, speed=1.0)
+    car = Robot(agent, wheelbase=1.0, max_steering_angle=0.5, radius=1.0, speed=1.0)
     wall = Polygon('wall', ((40.0, 0.0), (44.0, 0.0), (44.0, 40.0), (40.0, 40.0)))
     tree = Circle('tree', (60.0, 50.0), 3.0)
     goal = WorldObject('goal', {'x': 60.0, 'y': 10.0})

@@ -24,7 +24,8 @@ from motion_planner_node.planning.problem import (
 from motion_planner_node.planning.proofs import Impossible, blocked_start, contradiction
 from motion_planner_node.requests import AdviceAnswer, AdviceRequest, CandidateAdvice
 from motion_planner_node.robots.motion import Attitude, GeometricState
-from motion_planner_node.world.model import CarModel, World
+from motion_planner_node.robots.robot import Robot
+from motion_planner_node.world.model import World
 
 #: Candidates of one request at most.
 MOST_CANDIDATES = 1000
@@ -38,7 +39,7 @@ class Advisor:
         world: World,
         parameters: Parameters,
         parsed: Callable[[str], Preconditions],
-        ground_of: Callable[[CarModel], Ground],
+        ground_of: Callable[[Robot], Ground],
     ):
         self._world = world
         self._parsed = parsed
@@ -94,7 +95,7 @@ class Advisor:
             0.5 * (bounds.x_min + bounds.x_max), 0.5 * (bounds.y_min + bounds.y_max), 0.0
         )
         problem = read_problem(self._world, preconditions, {**state, mover: middle})
-        return Survey.of(problem, self._ground_of(problem.car), seed)
+        return Survey.of(problem, self._ground_of(problem.robot), seed)
 
     def _assigned(self, problem: Problem) -> CandidateAdvice:
         answer = answers.assigned(problem, self._ground_of, 0)

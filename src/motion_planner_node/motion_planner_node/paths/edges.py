@@ -1,4 +1,4 @@
-"""Edges between attitudes: the shortest Dubins word that is free."""
+"""Edges between attitudes: the shortest word that is free."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from motion_planner_node.robots.dubins import dubins_word, shortest_word
+from motion_planner_node.robots.body import Body
 from motion_planner_node.robots.kernel import kernel
+from motion_planner_node.robots.motion import Pose
+from motion_planner_node.robots.steering import MOST_PIECES, shortest_word, word, words
 from motion_planner_node.world.shapes import Shapes
 from motion_planner_node.world.sweeps import word_is_free
 
@@ -17,42 +19,45 @@ Row = NDArray[np.float64]
 
 @kernel
 def shortest_is_free(
-    shapes: Shapes,
-    margin: float,
-    radius: float,
-    x0: float,
-    y0: float,
-    heading0: float,
-    x1: float,
-    y1: float,
-    heading1: float,
+    shapes: Shapes, body: Body, steering: int, radius: float, start: Pose, end: Pose
 ) -> bool:
-    """Whether the shortest word from a free attitude to another is free for ``margin`` [m]."""
-    word, a, b, c = shortest_word(radius, x0, y0, heading0, x1, y1, heading1)
-    return word_is_free(shapes, margin, radius, (x0, y0, heading0), word, (a, b, c))
+    """Whether the shortest word from a free attitude to another is free for ``body``.
+
+    ``steering`` and turning ``radius`` [m] are those of `robots.steering`.
+    """
+    pieces = np.zeros((MOST_PIECES, 4))
+    number = shortest_word(steering, radius, start, end, pieces)[1]
+    return number >= 0 and word_is_free(shapes, body, start, pieces)
 
 
 @kernel
 def free_word(
-    shapes: Shapes, margin: float, radius: float, start: Row, end: Row, longest: float
+    shapes: Shapes,
+    body: Body,
+    steering: int,
+    radius: float,
+    start: Row,
+    end: Row,
+    longest: float,
+    pieces: NDArray[np.float64],
 ) -> tuple[float, int]:
-    """Length [m] and number of the shortest free word of less than ``longest`` [m].
+    """Write the shortest free word of less than ``longest`` [m] to ``pieces`` (5, 4).
 
-    Infinite and -1 when there is none; ``start`` and ``end`` are attitudes (3,).
+    Returns its length [m] and number, infinite and -1 when there is none; ``start`` and ``end`` are
+    attitudes (3,).
     """
-    x0, y0, heading0 = start[0], start[1], start[2]
-    x1, y1, heading1 = end[0], end[1], end[2]
-    lengths = np.empty(6)
-    for word in range(6):
-        a, b, c = dubins_word(word, radius, x0, y0, heading0, x1, y1, heading1)
-        lengths[word] = a + b + c
-    for _ in range(6):
-        word = int(np.argmin(lengths))
-        length = lengths[word]
+    here, there = (start[0], start[1], start[2]), (end[0], end[1], end[2])
+    count = words(steering)
+    lengths = np.empty(count)
+    for number in range(count):
+        lengths[number] = word(steering, radius, number, here, there, pieces)
+    for _ in range(count):
+        number = int(np.argmin(lengths))
+        length = lengths[number]
         if not length < longest:
             break
-        pieces = dubins_word(word, radius, x0, y0, heading0, x1, y1, heading1)
-        if word_is_free(shapes, margin, radius, (x0, y0, heading0), word, pieces):
-            return length, word
-        lengths[word] = inf
+        word(steering, radius, number, here, there, pieces)
+        if word_is_free(shapes, body, here, pieces):
+            return length, number
+        lengths[number] = inf
     return inf, -1

@@ -1,7 +1,7 @@
-"""OMPL's bidirectional sampling planner in the car's own kinematics.
+"""OMPL's bidirectional sampling planner in the robot's own kinematics.
 
 J. J. Kuffner and S. M. LaValle, "RRT-Connect: an efficient approach to single-query path planning",
-ICRA 2000, on OMPL's Dubins state space.
+ICRA 2000, on the state space of the robot's model.
 """
 
 from __future__ import annotations
@@ -16,7 +16,9 @@ from ompl import base, geometric, util
 
 from motion_planner_node.errors import Stopped
 from motion_planner_node.paths.edges import shortest_is_free
+from motion_planner_node.robots.body import Body, sufficient_clearance
 from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.world.clearance import clearance_at
 from motion_planner_node.world.shapes import Shapes
 
@@ -27,24 +29,20 @@ _ONE_AT_A_TIME = Lock()
 
 
 class _Edges(base.MotionValidator):
-    """An edge is valid when its shortest Dubins word is free as a whole."""
+    """An edge is valid when its shortest word is free as a whole."""
 
     def __init__(
-        self, information: base.SpaceInformation, shapes: Shapes, margin: float, radius: float
+        self, information: base.SpaceInformation, shapes: Shapes, body: Body, robot: Robot
     ) -> None:
         super().__init__(information)
-        self._scene = (shapes, margin, radius)
+        self._frame = (shapes, body, robot.steering, robot.turning_radius)
 
     def checkMotion(self, start: base.State, end: base.State) -> bool:
         """Whether the edge from ``start`` to ``end`` is valid."""
         return shortest_is_free(
-            *self._scene,
-            start.getX(),
-            start.getY(),
-            start.getYaw(),
-            end.getX(),
-            end.getY(),
-            end.getYaw(),
+            *self._frame,
+            (start.getX(), start.getY(), start.getYaw()),
+            (end.getX(), end.getY(), end.getYaw()),
         )
 
 
@@ -62,19 +60,7 @@ class _Iterations:
         return self._left < 0
 
 
-def _space(shapes: Shapes, radius: float) -> base.DubinsStateSpace:
-    space = base.DubinsStateSpace(radius)
-    bounds = base.RealVectorBounds(2)
-    x_min, y_min, x_max, y_max = (float(value) for value in shapes.bounds)
-    bounds.setLow(0, x_min)
-    bounds.setLow(1, y_min)
-    bounds.setHigh(0, x_max)
-    bounds.setHigh(1, y_max)
-    space.setBounds(bounds)
-    return space
-
-
-def _state(space: base.DubinsStateSpace, attitude: Attitude) -> base.State:
+def _state(space: base.StateSpace, attitude: Attitude) -> base.State:
     state = space.allocState()
     state.setXY(attitude.x, attitude.y)
     # OMPL's angles are in [-pi, pi): it would take a heading of pi for invalid, and wait in vain.
@@ -85,25 +71,27 @@ def _state(space: base.DubinsStateSpace, attitude: Attitude) -> base.State:
 
 def sample_path(
     shapes: Shapes,
-    margin: float,
-    radius: float,
+    body: Body,
+    robot: Robot,
     start: Attitude,
     goal: Attitude,
     seed: int,
     iterations: int,
     should_stop: Callable[[], bool],
 ) -> NDArray[np.float64] | None:
-    """Attitudes (n, 3) from ``start`` to ``goal`` whose shortest Dubins words are free.
+    """Attitudes (n, 3) from ``start`` to ``goal`` whose shortest words are free.
 
-    ``margin`` [m] is the clearance that is kept, ``radius`` [m] the turning radius.  None when
-    there was none after ``iterations``.  Raises Stopped when ``should_stop`` says so.
+    ``body`` is that of ``robot``, its margin perhaps wider.  None when there was none after
+    ``iterations``.  Raises Stopped when ``should_stop`` says so.
     """
-    space = _space(shapes, radius)
+    x_min, y_min, x_max, y_max = (float(value) for value in shapes.bounds)
+    space = robot.space((x_min, y_min, x_max, y_max))
+    margin = sufficient_clearance(body)
     information = base.SpaceInformation(space)
     information.setStateValidityChecker(
         lambda state: bool(clearance_at(shapes, state.getX(), state.getY())[0] >= margin)
     )
-    edges = _Edges(information, shapes, margin, radius)
+    edges = _Edges(information, shapes, body, robot)
     information.setMotionValidator(edges)
     problem = base.ProblemDefinition(information)
     problem.setStartAndGoalStates(_state(space, start), _state(space, goal))

@@ -17,8 +17,8 @@ from motion_planner_node.planning.stream import Found
 from motion_planner_node.planning.tried import Tried
 from motion_planner_node.requests import GeometricAnswer
 from motion_planner_node.robots.motion import Attitude, Motion
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import from_start, restarts, separation, together, unsolved
-from motion_planner_node.world.model import CarModel
 
 #: Descents among which the best compromise is chosen.
 COMPROMISES = 64
@@ -46,13 +46,13 @@ def found(problem: Problem, ground: Ground, result: Found) -> GeometricAnswer:
 
 
 def assigned(
-    problem: Problem, ground_of: Callable[[CarModel], Ground], alternative: int
+    problem: Problem, ground_of: Callable[[Robot], Ground], alternative: int
 ) -> GeometricAnswer:
     """What becomes of commands: the attitudes that they set, when the robots can be in them.
 
     Constraints that stand beside commands are checked at the attitude that is set.
     """
-    ground = ground_of(problem.car)
+    ground = ground_of(problem.robot)
     world = ground.scene.world
     state = problem.program.apply_commands(problem.state)
     end = state[problem.agent]

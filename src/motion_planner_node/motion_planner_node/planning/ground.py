@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motion_planner_node.planning.boxes import Boxes, Pyramid
-from motion_planner_node.robots.car import dubins_lengths
+from motion_planner_node.robots.body import necessary_clearance
+from motion_planner_node.robots.driving import shortest_between
 from motion_planner_node.robots.motion import Attitude, Motion, Segment
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import Room
-from motion_planner_node.world.model import CarModel
-from motion_planner_node.world.scene import Scene, required_clearance
+from motion_planner_node.world.scene import Scene
 
 #: Boxes on a side of the map where a grid over all of it is needed, free or not.
 WHOLE_MAP_BOXES = 96
@@ -35,10 +36,10 @@ class Area:
 class Ground:
     """Free space of one robot in one world; immutable, and shared by all its requests."""
 
-    def __init__(self, scene: Scene, car: CarModel):
+    def __init__(self, scene: Scene, robot: Robot):
         self.scene = scene
-        self.car = car
-        self._free = scene.free_space(car.radius)
+        self.robot = robot
+        self._free = scene.free_space(robot.body)
         cells = self._free.cells
         self.cells = Pyramid(Boxes.of(cells.x_lo, cells.x_hi, cells.y_lo, cells.y_hi))
         #: Number of the connected part of the free space that each of ``cells`` is in, (n,).
@@ -48,12 +49,12 @@ class Ground:
             bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max, WHOLE_MAP_BOXES
         )
         self.everywhere = Pyramid(whole)
-        #: Where the robot's disc can be, for descents and proofs.
-        self.room = Room(scene.shapes, required_clearance(car.radius))
+        #: Where the robot can be in some heading, for descents and proofs.
+        self.room = Room(scene.shapes, necessary_clearance(robot.body))
 
     def is_free(self, states: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Which of the attitudes (n, 3) the robot can stand in, shape (n,)."""
-        return np.asarray(self.scene.is_free(states, self.car.radius))
+        return np.asarray(self.scene.is_free(states, self.robot.body))
 
     def trouble(self, attitude: Attitude) -> str:
         """What is wrong with standing at ``attitude``, as the end of a sentence; '' when nothing is."""
@@ -72,22 +73,24 @@ class Ground:
         name, clearance = self.scene.nearest_obstacle(attitude.x, attitude.y)
         if clearance < 0.0:
             return f'{here} is {-clearance:.4g} m inside {name}'
-        return f'{here} is {clearance:.4g} m from {name}; the robot needs {self.car.radius:g} m'
+        return f'{here} is {clearance:.4g} m from {name}; the robot needs {self.robot.radius:g} m'
 
     def can_turn_round(self, attitude: Attitude) -> bool:
         """Whether there is room for a full circle at ``attitude`` or straight ahead of it.
 
         A car that only drives forward may never get out of a place without such room.
         """
-        circle = tau * self.car.turning_radius
+        if not self.robot.turning_radius:
+            return True
+        circle = tau * self.robot.turning_radius
         for ahead in RUN_UPS:
-            straight = Segment(0.0, ahead * self.car.turning_radius)
-            for angle in (self.car.max_steering_angle, -self.car.max_steering_angle):
+            straight = Segment(0.0, ahead * self.robot.turning_radius)
+            for angle in (self.robot.max_steering_angle, -self.robot.max_steering_angle):
                 segments = (
                     (straight, Segment(angle, circle)) if ahead else (Segment(angle, circle),)
                 )
-                motion = Motion(self.car.label, attitude, segments)
-                if self.scene.motion_is_free(motion, self.car):
+                motion = Motion(self.robot.label, attitude, segments)
+                if self.scene.motion_is_free(motion, self.robot):
                     return True
         return False
 
@@ -107,14 +110,14 @@ class Ground:
         field = self._free.distance_from(start.x, start.y)
         around = field.at(states[:, 0], states[:, 1])
         here = np.array([start.x, start.y, start.heading])
-        return np.asarray(np.maximum(around, dubins_lengths(here, states, self.car)))
+        return np.asarray(np.maximum(around, shortest_between(here, states, self.robot)))
 
     def area(self, part: int) -> Area:
         """Size and bounding obstacles of a connected part of the free space, biggest share first."""
         boxes = self.cells.boxes.chosen(self.parts == part)
         x, y = boxes.centres
         near = self.scene.clearance(np.column_stack([x, y])) < (
-            self.car.radius + 1.5 * self._free.resolution
+            self.robot.radius + 1.5 * self._free.resolution
         )
         rim = np.flatnonzero(near)
         rim = rim[:: max(1, len(rim) // RIM_PLACES)]

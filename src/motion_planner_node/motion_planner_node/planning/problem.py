@@ -12,8 +12,9 @@ from motion_planner_node.language import Preconditions
 from motion_planner_node.parameters import MODES
 from motion_planner_node.requests import GeometricRequest
 from motion_planner_node.robots.motion import Attitude, GeometricState
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import Program, compile_program
-from motion_planner_node.world.model import CarModel, World
+from motion_planner_node.world.model import World
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +22,7 @@ class Problem:
     """Ground preconditions, compiled, and where everybody stands before the action."""
 
     program: Program
-    car: CarModel
+    robot: Robot
     state: GeometricState
 
     @property

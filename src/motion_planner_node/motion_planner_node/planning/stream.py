@@ -22,7 +22,7 @@ from motion_planner_node.planning.proofs import (
     walled_off,
 )
 from motion_planner_node.planning.tried import Tried
-from motion_planner_node.robots.car import end_of
+from motion_planner_node.robots.driving import end_of
 from motion_planner_node.robots.motion import Attitude, Motion
 from motion_planner_node.satisfaction import destinations
 
@@ -207,7 +207,7 @@ class Stream:
             seed = np.random.SeedSequence([self._seed, candidate.number]).generate_state(1)
             result = plan_path(
                 self._ground.scene,
-                self._ground.car,
+                self._ground.robot,
                 start,
                 [goal],
                 int(seed[0]),
@@ -218,7 +218,7 @@ class Stream:
                 self.tried.add(goal, AttemptResult.NO_PATH, result.reason)
                 return False
             motion = result.motion
-        end = end_of(motion, self._ground.car)
+        end = end_of(motion, self._ground.robot)
         missed = self._problem.program.unmet(end)
         if missed:
             self.tried.add(end, AttemptResult.NOT_SATISFIED, missed[0])

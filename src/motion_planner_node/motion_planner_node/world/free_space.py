@@ -65,7 +65,7 @@ class Cells:
 class TravelField:
     """Estimated lengths [m] of motions between one point and all others, obstacles regarded.
 
-    The turning radius is not; see ``robots.car.dubins_lengths`` for a bound that does.
+    The turning radius is not; see ``robots.driving.shortest_between`` for a bound that does.
     """
 
     def __init__(self, grid: _Grid, distances: NDArray[np.float64], x: float, y: float) -> None:

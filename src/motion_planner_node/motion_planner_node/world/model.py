@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import tan
-from typing import ClassVar
 
-from motion_planner_node.robots.motion import COMPONENTS, Attitude
+from motion_planner_node.robots.robot import Robot
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,27 +49,8 @@ Obstacle = Polygon | Circle
 Region = Polygon | Circle
 
 
-@dataclass(frozen=True, slots=True)
-class CarModel:
-    """The paper's car: forward only, steering angle one of -max, 0, +max [rad].
-
-    ``radius`` [m] is the disc around (x, y) that has to stay clear of obstacles and in the map.
-    """
-
-    #: Components of the state vector, which constraints and commands can name.
-    components: ClassVar[tuple[str, ...]] = COMPONENTS
-
-    label: str
-    wheelbase: float
-    max_steering_angle: float
-    radius: float
-    speed: float
-    start: Attitude | None = None
-
-    @property
-    def turning_radius(self) -> float:
-        """Radius [m] of the circle driven at the largest steering angle."""
-        return self.wheelbase / tan(self.max_steering_angle)
+#: A robot of model car, as the paper's.
+CarModel = Robot
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,5 +62,5 @@ class World:
     bounds: Bounds
     objects: Mapping[str, WorldObject]
     obstacles: tuple[Obstacle, ...]
-    robots: Mapping[str, CarModel]
+    robots: Mapping[str, Robot]
     regions: Mapping[str, Region] = field(default_factory=dict)

@@ -7,10 +7,11 @@ from math import pi, tan
 
 from motion_planner_node.robots.arcs import wrap_angle
 from motion_planner_node.robots.motion import Attitude
-from motion_planner_node.world.model import Bounds, CarModel, World, WorldObject
+from motion_planner_node.robots.robot import Robot
+from motion_planner_node.world.model import Bounds, World, WorldObject
 from motion_planner_node.world.obstacles import read_obstacles, read_regions
 from motion_planner_node.world.revision import revision_of
-from motion_planner_node.world.scene import Scene, required_clearance
+from motion_planner_node.world.scene import Scene
 from motion_planner_node.world.syntax import Mapping, Node, Place, read_tree
 from motion_planner_node.world.values import (
     SMALLEST_LENGTH,
@@ -39,7 +40,7 @@ class _WorldReader:
     def __init__(self, source: str) -> None:
         self._source = source
         self._faults = Faults(source)
-        self._starts: list[tuple[CarModel, Place]] = []
+        self._starts: list[tuple[Robot, Place]] = []
 
     def read(self, root: Node) -> World:
         parts = read_fields(
@@ -107,8 +108,8 @@ class _WorldReader:
             )
             self._faults.add(message, place)
 
-    def _robots(self, node: Node, objects: dict[str, WorldObject]) -> dict[str, CarModel]:
-        robots: dict[str, CarModel] = {}
+    def _robots(self, node: Node, objects: dict[str, WorldObject]) -> dict[str, Robot]:
+        robots: dict[str, Robot] = {}
         if not check_count(node, 'robots', MOST_ROBOTS, self._faults):
             return robots
         for label, (place, value) in read_mapping(node, 'robots', self._faults).items():
@@ -120,7 +121,7 @@ class _WorldReader:
                 robots[label] = robot
         return robots
 
-    def _robot(self, label: str, node: Node) -> CarModel | None:
+    def _robot(self, label: str, node: Node) -> Robot | None:
         numbers = ('wheelbase', 'max_steering_angle', 'radius', 'speed')
         fields = read_fields(node, label, ('model', *numbers), ('start',), self._faults)
         if 'model' in fields:
@@ -149,7 +150,7 @@ class _WorldReader:
             )
             self._faults.add(message, node.place)
             return None
-        robot = CarModel(label, wheelbase, angle, radius, speed, start)
+        robot = Robot(label, wheelbase, angle, radius, speed, start)
         if start is not None:
             self._starts.append((robot, fields['start'].place))
         return robot
@@ -180,7 +181,8 @@ class _WorldReader:
             if robot.start is None:
                 continue
             name, clearance = scene.nearest_obstacle(robot.start.x, robot.start.y)
-            if clearance < required_clearance(robot.radius):
+            attitude = (robot.start.x, robot.start.y, robot.start.heading)
+            if not scene.is_free([attitude], robot.body)[0]:
                 where = f'({robot.start.x:g}, {robot.start.y:g})'
                 message = (
                     f'{robot.label} starts at {where}, {clearance:.3f} m from {name}: '

@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motion_planner_node.robots.arcs import advance
-from motion_planner_node.robots.dubins import TURNS
+from motion_planner_node.robots.body import Body, sufficient_clearance
 from motion_planner_node.robots.kernel import kernel
+from motion_planner_node.robots.motion import Pose
 from motion_planner_node.world.clearance import clearance_at, squared_distance_to_segment
 from motion_planner_node.world.shapes import Shapes
 
@@ -209,38 +210,38 @@ def arc_is_free(
 
 
 @kernel
-def word_is_free(
-    shapes: Shapes,
-    margin: float,
-    radius: float,
-    start: tuple[float, float, float],
-    word: int,
-    pieces: tuple[float, float, float],
-) -> bool:
-    """Whether a Dubins word with these ``pieces`` [m] is free from ``start``, itself free."""
+def word_is_free(shapes: Shapes, body: Body, start: Pose, pieces: NDArray[np.float64]) -> bool:
+    """Whether driving ``pieces`` (n, 4) is free from ``start``, itself free.
+
+    Pieces are rows of curvature [1/m], length [m], direction [rad] and turn [rad].
+    """
+    margin = sufficient_clearance(body)
     x, y, heading = start
-    for i in range(3):
-        if pieces[i] > 0.0:
-            bend = TURNS[word, i] / radius
-            if not arc_is_free(shapes, margin, x, y, heading, bend, pieces[i]):
-                return False
-            x, y, heading = advance(x, y, heading, bend, pieces[i])
+    for i in range(len(pieces)):
+        bend, length, direction, turn = pieces[i]
+        end = advance(x, y, heading, bend, length, direction, turn)
+        course = heading + direction
+        if length < 0.0:
+            # The arc that leads backwards from here is the one that leads here from its end.
+            course = end[2] + direction
+            free = arc_is_free(shapes, margin, end[0], end[1], course, bend, -length)
+        else:
+            free = length == 0.0 or arc_is_free(shapes, margin, x, y, course, bend, length)
+        if not free:
+            return False
+        x, y, heading = end
     return True
 
 
 @kernel
 def chain_is_free(
     shapes: Shapes,
-    margin: float,
+    body: Body,
     start: NDArray[np.float64],
-    chain: NDArray[np.float64],
+    pieces: NDArray[np.float64],
 ) -> bool:
-    """Whether driving ``chain`` (n, 2), rows of curvature [1/m] and length [m], is free."""
-    x, y, heading = start[0], start[1], start[2]
-    if clearance_at(shapes, x, y)[0] < margin:
+    """Whether driving ``pieces`` (n, 4) from ``start`` (3,) is free, as `word_is_free` does."""
+    pose = (start[0], start[1], start[2])
+    if clearance_at(shapes, pose[0], pose[1])[0] < sufficient_clearance(body):
         return False
-    for i in range(len(chain)):
-        if not arc_is_free(shapes, margin, x, y, heading, chain[i, 0], chain[i, 1]):
-            return False
-        x, y, heading = advance(x, y, heading, chain[i, 0], chain[i, 1])
-    return True
+    return word_is_free(shapes, body, pose, pieces)
