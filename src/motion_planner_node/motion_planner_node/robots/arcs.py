@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import ceil, cos, nextafter, pi, sin
+from math import ceil, cos, inf, nextafter, pi, sin
 
 from motion_planner_node.robots.kernel import kernel
 
@@ -16,6 +16,12 @@ def wrap_angle(angle: float) -> float:
         return angle
     wrapped = angle - 2.0 * pi * ceil((angle - pi) / (2.0 * pi))
     return min(max(wrapped, -_ALMOST_PI), pi)
+
+
+@kernel
+def other_way(turn: float) -> float:
+    """The turn [rad] to the same heading the other way round; infinite for no turn at all."""
+    return inf if turn == 0.0 else (turn - 2.0 * pi if turn > 0.0 else turn + 2.0 * pi)
 
 
 @kernel
