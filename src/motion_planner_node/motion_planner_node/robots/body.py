@@ -41,11 +41,11 @@ def body_of(footprint: Corners, radius: float, safety_margin: float) -> Body:
         return Body(corners, float(radius), float(radius), float(margin))
     outer = max(hypot(x, y) for x, y in footprint)
     following = footprint[1:] + footprint[:1]
-    inner = min(_distance_from_edge(*a, *b) for a, b in zip(footprint, following, strict=True))
+    inner = min(distance_from_edge(*a, *b) for a, b in zip(footprint, following, strict=True))
     return Body(corners, float(outer), float(inner), float(max(safety_margin - TOUCH, TOUCH)))
 
 
-def _distance_from_edge(x0: float, y0: float, x1: float, y1: float) -> float:
+def distance_from_edge(x0: float, y0: float, x1: float, y1: float) -> float:
     """Distance [m] from the origin to the straight edge between two corners."""
     dx, dy = x1 - x0, y1 - y0
     square = dx * dx + dy * dy

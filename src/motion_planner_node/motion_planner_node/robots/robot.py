@@ -60,6 +60,16 @@ class Robot:
         """The shape and the clearance that it keeps; one object for all robots of this shape."""
         return body_of(self.footprint, self.radius, self.safety_margin)
 
+    @property
+    def extent(self) -> str:
+        """What has to keep clear of obstacles and of the edge of the map, in words."""
+        corners = len(self.footprint)
+        shape = (
+            f'its footprint of {corners} corners' if corners else f'its radius of {self.radius:g} m'
+        )
+        margin = f' and its safety margin of {self.safety_margin:g} m'
+        return shape + margin if self.safety_margin else shape
+
     def curvature(self, steering_angle: float) -> float:
         """Curvature [1/m] of the arc driven at ``steering_angle`` [rad]."""
         return tan(steering_angle) / self.wheelbase if steering_angle else 0.0

@@ -48,7 +48,7 @@ def read_obstacles(node: Node, faults: Faults) -> tuple[Obstacle, ...]:
         while given is None and name in lines:
             name += '_'
         if 'polygon' in fields:
-            obstacles.append(_polygon(fields['polygon'], name, faults))
+            obstacles.append(read_polygon(fields['polygon'], name, faults))
         elif 'circle' in fields:
             obstacles.append(_circle(fields['circle'], name, faults))
     return tuple(obstacle for obstacle in obstacles if obstacle is not None)
@@ -79,7 +79,7 @@ def read_regions(node: Node, taken: Container[str], faults: Faults) -> dict[str,
             other = 'another region' if name in regions else 'an object or a robot'
             faults.add(f'{name} is the name of {other}, too', place, name)
         if 'polygon' in fields:
-            region: Region | None = _polygon(fields['polygon'], name, faults)
+            region: Region | None = read_polygon(fields['polygon'], name, faults)
         else:
             region = _circle(fields['circle'], name, faults)
         if region is not None:
@@ -103,12 +103,13 @@ def _name(fields: dict[str, Node], what: str, lines: dict[str, int], faults: Fau
     return name
 
 
-def _polygon(node: Node, name: str, faults: Faults) -> Polygon | None:
+def read_polygon(node: Node, name: str, faults: Faults, most: int = MOST_CORNERS) -> Polygon | None:
+    """A simple polygon of up to ``most`` corners; what is wrong with it goes to ``faults``."""
     if not isinstance(node, Sequence):
         message = f'{name}: polygon has to be a list of [x, y], not {kind_of(node)}'
         faults.add(message, node.place)
         return None
-    if not check_count(node, f'corners of {name}', MOST_CORNERS, faults):
+    if not check_count(node, f'corners of {name}', most, faults):
         return None
     corners: list[tuple[float, float]] = []
     for number, item in enumerate(node.items, 1):
