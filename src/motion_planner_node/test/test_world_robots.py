@@ -84,7 +84,7 @@ def test_what_a_robot_is_like_belongs_to_the_revision() -> None:
         ('turning_speed: 2', 'turning_speed: 0', (8, 71), 'at least 0.001, not 0'),
         ('[4, 1], [-1, 1]', '[4, one], [-1, 1]', (7, 46), 'truck: footprint: corner 3: y has'),
         ('[-1, -1], [4, -1], ', '', (7, 22), 'a polygon needs 3 corners, this has 2'),
-        ('[4, 1], [-1, 1]', '[-1, 1], [4, 3]', (7, 22), 'crosses or touches itself'),
+        ('[4, 1], [-1, 1]', '[-1, 1], [5, 2]', (7, 22), 'crosses or touches itself'),
         ('[4, 1], [-1, 1]', '[3, -1], [2, -1]', (7, 22), 'encloses no area'),
         ('[[-1, -1], [4, -1]', '[[1, -1], [4, -1], [4, 1], [1, 1], [3, 0]', (7, 22), 'crosses'),
         ('-1, -1], [4, -1], [4, 1], [-1,', '1, -1], [4, -1], [4, 1], [1,', (7, 22), 'reference'),
