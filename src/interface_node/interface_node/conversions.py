@@ -79,6 +79,9 @@ def world_from_message(world: msg.World) -> World:
                 robot.speed,
                 robot.model,
                 _attitude(robot.start[0]) if robot.start else None,
+                tuple((corner.x, corner.y) for corner in robot.footprint),
+                robot.safety_margin,
+                robot.turning_speed,
             )
             for robot in world.robots
         ),
@@ -106,7 +109,9 @@ def step_from_message(step: msg.Step) -> Step:
         end_state=end_state,
         assigned=answer.assigned,
         motion_start=_attitude(motion.start) if motion.segments else None,
-        segments=tuple(Segment(s.steering_angle, s.length) for s in motion.segments),
+        segments=tuple(
+            Segment(s.steering_angle, s.length, s.direction, s.turn) for s in motion.segments
+        ),
         length=answer.length,
         residuals=tuple(Residual(r.constraint, r.violation, r.satisfied) for r in answer.residuals),
         alternative=answer.alternative,

@@ -17,10 +17,17 @@ class Attitude:
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """An arc of ``length`` [m] driven forward at ``steering_angle`` [rad], positive to the left."""
+    """One of: an arc or a straight line, a slide, a turn on the spot.
+
+    An arc has a ``length`` [m], negative when driven backwards, and a ``steering_angle`` [rad],
+    positive to the left; a slide a length and a ``direction`` [rad] from the heading, which stays;
+    a turn on the spot no length but a ``turn`` [rad], counter-clockwise.
+    """
 
     steering_angle: float
     length: float
+    direction: float = 0.0
+    turn: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +57,11 @@ class Diagnostic:
 
 @dataclass(frozen=True, slots=True)
 class Robot:
-    """A car: wheelbase, radius of its disc [m], largest steering angle [rad], speed [m/s]."""
+    """Of one model: wheelbase, radius [m], largest steering angle [rad], speeds [m/s] and [rad/s].
+
+    ``footprint`` are corners [m] in the robot's frame, x forward and y left, none for a disc;
+    ``safety_margin`` [m] is what it keeps from obstacles.
+    """
 
     label: str
     wheelbase: float
@@ -59,6 +70,9 @@ class Robot:
     speed: float = 0.0
     model: str = 'car'
     start: Attitude | None = None
+    footprint: tuple[tuple[float, float], ...] = ()
+    safety_margin: float = 0.0
+    turning_speed: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -46,6 +46,23 @@ def test_everything_is_drawn(sample_plan: Plan) -> None:
     assert axes.get_title(loc='left') == 'small: 4 actions, 36 m'
 
 
+def test_a_footprint_is_drawn_where_the_robot_stands(sample_plan: Plan) -> None:
+    assert sample_plan.world is not None
+    robots = tuple(
+        replace(robot, footprint=((-1.0, -1.0), (2.0, -1.0), (2.0, 1.0), (-1.0, 1.0)))
+        for robot in sample_plan.world.robots
+    )
+    plan = replace(sample_plan, world=replace(sample_plan.world, robots=robots))
+    (axes,) = draw(plan).axes
+    outlines = [
+        patch.get_xy()[:-1]
+        for patch in axes.patches
+        if isinstance(patch, Polygon) and not patch.get_fill()
+    ]
+    assert len(outlines) == 3
+    np.testing.assert_allclose(outlines[0], [(9, 9), (12, 9), (12, 11), (9, 11)])
+
+
 def test_the_picture_is_a_png_of_some_size_and_always_the_same(sample_plan: Plan) -> None:
     first = write_picture(sample_plan)
     pixels = imread(BytesIO(first))

@@ -17,6 +17,7 @@ from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from interface_node.driving import sample
+from interface_node.footprint import robot_outline
 from interface_node.picture.labels import place_labels
 from interface_node.plan import Plan, Step, World
 
@@ -68,6 +69,7 @@ def draw(plan: Plan) -> Figure:
     way = _draw_way(axes, plan, world)
     looked_at = _draw_viewing_lines(axes, plan, world)
     _draw_objects(axes, world)
+    _draw_footprints(axes, plan, world)
     _draw_attitudes(axes, plan, world)
     axes.legend(
         handles=_legend(plan),
@@ -177,6 +179,17 @@ def _draw_objects(axes: Axes, world: World) -> None:
             zorder=6,
             gid=label,
         )
+
+
+def _draw_footprints(axes: Axes, plan: Plan, world: World) -> None:
+    """Draw the footprints where actions end; a disc would only look like the attitude's mark."""
+    for step in plan.steps:
+        robot = world.robot(step.agent)
+        if robot and robot.footprint and step.end:
+            corners = robot_outline(robot, step.end)
+            axes.add_patch(
+                Polygon(corners, closed=True, facecolor='none', edgecolor=INK, lw=1.0, zorder=6.5)
+            )
 
 
 def _draw_attitudes(axes: Axes, plan: Plan, world: World) -> None:
