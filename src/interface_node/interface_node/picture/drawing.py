@@ -188,7 +188,7 @@ def _draw_footprints(axes: Axes, plan: Plan, world: World) -> None:
         if robot and robot.footprint and step.end:
             corners = robot_outline(robot, step.end)
             axes.add_patch(
-                Polygon(corners, closed=True, facecolor='none', edgecolor=INK, lw=1.0, zorder=6.5)
+                Polygon(corners, closed=True, fill=False, edgecolor=INK, lw=1.0, zorder=6.5)
             )
 
 
