@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from math import isfinite, pi, remainder, tau
 
 from geohtn_msgs import msg
 from geometry_msgs.msg import Point
@@ -11,6 +10,12 @@ from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescri
 
 from motion_planner_node.codes import Code
 from motion_planner_node.errors import Diagnostic, MotionPlannerError
+from motion_planner_node.motion_conversions import (
+    agent_state_to_msg,
+    attitude_from_msg,
+    motion_to_msg,
+    robot_to_msg,
+)
 from motion_planner_node.parameters import Specification
 from motion_planner_node.requests import (
     AdviceAnswer,
@@ -19,7 +24,7 @@ from motion_planner_node.requests import (
     GeometricAnswer,
     GeometricRequest,
 )
-from motion_planner_node.robots.motion import Attitude, GeometricState, Motion
+from motion_planner_node.robots.motion import Attitude, GeometricState
 from motion_planner_node.world.model import Obstacle, Polygon, Region, World
 
 
@@ -34,30 +39,13 @@ def state_from_msg(states: Sequence[msg.AgentState]) -> GeometricState:
             raise MotionPlannerError(
                 Code.INVALID_START, f'the start names agent {state.agent} twice'
             )
-        for name in ('x', 'y', 'heading'):
-            value = getattr(state, name)
-            if not isfinite(value):
-                raise MotionPlannerError(
-                    Code.INVALID_START, f'the start of {state.agent} has {name} {value}'
-                )
-        heading = state.heading if -pi < state.heading <= pi else remainder(state.heading, tau)
-        result[state.agent] = Attitude(state.x, state.y, pi if heading == -pi else heading)
+        result[state.agent] = attitude_from_msg(state)
     return result
 
 
 def state_to_msg(state: GeometricState) -> list[msg.AgentState]:
     """Attitudes in the order of ``state``."""
     return [agent_state_to_msg(agent, attitude) for agent, attitude in state.items()]
-
-
-def agent_state_to_msg(agent: str, attitude: Attitude) -> msg.AgentState:
-    """One attitude."""
-    return msg.AgentState(
-        agent=agent,
-        x=float(attitude.x),
-        y=float(attitude.y),
-        heading=float(attitude.heading),
-    )
 
 
 def request_from_msg(request: msg.GeometricRequest) -> GeometricRequest:
@@ -115,7 +103,11 @@ def answer_to_msg(
         message=answer.message,
         end=state_to_msg(answer.end),
         assigned=bool(answer.assigned),
-        motion=_motion_to_msg(answer.motion) if answer.motion else msg.Motion(),
+        motion=(
+            motion_to_msg(answer.motion, answer.duration, answer.clearance)
+            if answer.motion
+            else msg.Motion()
+        ),
         length=float(answer.length),
         residuals=[
             msg.ConstraintResidual(
@@ -199,21 +191,7 @@ def world_to_msg(world: World) -> msg.World:
         ],
         obstacles=[_obstacle_to_msg(obstacle) for obstacle in world.obstacles],
         regions=[_region_to_msg(region) for region in world.regions.values()],
-        robots=[
-            msg.RobotModel(
-                label=label,
-                model=robot.kind,
-                wheelbase=float(robot.wheelbase),
-                max_steering_angle=float(robot.max_steering_angle),
-                radius=float(robot.radius),
-                footprint=[Point(x=float(x), y=float(y)) for x, y in robot.footprint],
-                safety_margin=float(robot.safety_margin),
-                speed=float(robot.speed),
-                turning_speed=float(robot.turning_speed),
-                start=[agent_state_to_msg(label, robot.start)] if robot.start else [],
-            )
-            for label, robot in world.robots.items()
-        ],
+        robots=[robot_to_msg(robot) for robot in world.robots.values()],
     )
 
 
@@ -256,23 +234,6 @@ def _obstacle_to_msg(obstacle: Obstacle) -> msg.Obstacle:
         name=obstacle.name,
         center=Point(x=float(x), y=float(y)),
         radius=float(obstacle.radius),
-    )
-
-
-def _motion_to_msg(motion: Motion) -> msg.Motion:
-    return msg.Motion(
-        agent=motion.agent,
-        start=agent_state_to_msg(motion.agent, motion.start),
-        segments=[
-            msg.Segment(
-                steering_angle=float(segment.steering_angle),
-                length=float(segment.length),
-                direction=float(segment.direction),
-                turn=float(segment.turn),
-            )
-            for segment in motion.segments
-        ],
-        length=float(motion.length),
     )
 
 

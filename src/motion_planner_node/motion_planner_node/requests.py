@@ -50,7 +50,11 @@ class Attempt:
 
 @dataclass(frozen=True, slots=True)
 class GeometricAnswer:
-    """What was found out; ``end``, ``motion`` and ``length`` [m] hold when FOUND."""
+    """What was found out; ``end``, ``motion`` and what is said of it hold when FOUND.
+
+    ``duration`` [s] is that of the motion at the robot's speeds, ``clearance`` [m] the least distance
+    that its body has from obstacles and the edge of the map on the way.
+    """
 
     code: Code
     message: str = ''
@@ -61,6 +65,8 @@ class GeometricAnswer:
     end: GeometricState = field(default_factory=dict)
     assigned: bool = False
     motion: Motion | None = None
+    duration: float = 0.0
+    clearance: float = 0.0
     residuals: tuple[Residual, ...] = ()
     attempts: tuple[Attempt, ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()

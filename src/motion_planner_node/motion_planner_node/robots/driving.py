@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import isfinite, pi
+from math import ceil, isfinite, pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,21 +31,34 @@ def end_of(motion: Motion, robot: Robot) -> Attitude:
 
 
 def sample(motion: Motion, robot: Robot, spacing: float) -> NDArray[np.float64]:
-    """Attitudes (n, 3) along ``motion``, at most ``spacing`` [m] > 0 and 10 degrees of turn apart.
+    """Attitudes along ``motion``, shape (n, 3), as `timed_sample` takes them."""
+    return timed_sample(motion, robot, spacing)[:, :3]
 
-    The start, every joint of two segments and the end are among them.
+
+def timed_sample(motion: Motion, robot: Robot, spacing: float) -> NDArray[np.float64]:
+    """Attitudes along ``motion`` and their times [s] from its start, shape (n, 4).
+
+    They are at most ``spacing`` [m] > 0 and 10 degrees of turn apart.  The start, every joint of two
+    segments and the end are among them.
     """
     start = motion.start
     x, y, heading = float(start.x), float(start.y), float(start.heading)
-    rows = [(x, y, wrap_angle(heading))]
+    rows, begun = [(x, y, wrap_angle(heading), 0.0)], 0.0
     for bend, length, direction, turn in robot.pieces_of(motion.segments).tolist():
-        steps = max(1, int(np.ceil(max(abs(length) / spacing, abs(turn) / TURN_SPACING))))
+        steps = steps_of(length, turn, spacing)
+        time = robot.time_of(length, turn)
         for step in range(1, steps + 1):
             share = step / steps
             row = advance(x, y, heading, bend, length * share, direction, turn * share)
-            rows.append((row[0], row[1], wrap_angle(row[2])))
+            rows.append((row[0], row[1], wrap_angle(row[2]), begun + time * share))
         x, y, heading = row
+        begun += time
     return np.array(rows)
+
+
+def steps_of(length: float, turn: float, spacing: float) -> int:
+    """How many steps of at most ``spacing`` [m] and 10 degrees a segment is sampled in."""
+    return max(1, ceil(abs(length) / spacing), ceil(abs(turn) / TURN_SPACING))
 
 
 def words_between(start: Attitude, end: Attitude, robot: Robot) -> list[tuple[Segment, ...]]:

@@ -102,6 +102,9 @@ class Robot:
 
     def duration(self, motion: Motion) -> float:
         """Time [s] that ``motion`` takes at the robot's speeds."""
-        turned = sum(abs(segment.turn) for segment in motion.segments)
-        turning = turned / self.turning_speed if turned else 0.0
-        return float(motion.length / self.speed + turning)
+        return float(sum(self.time_of(item.length, item.turn) for item in motion.segments))
+
+    def time_of(self, length: float, turn: float) -> float:
+        """Time [s] of a drive of ``length`` [m] or a ``turn`` [rad] on the spot."""
+        turning = abs(turn) / self.turning_speed if turn else 0.0
+        return abs(length) / self.speed + turning
