@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,50 +15,75 @@ from motion_planner_node.robots.steering import MOST_PIECES, shortest_word, word
 from motion_planner_node.world.shapes import Shapes
 from motion_planner_node.world.sweeps import word_is_free
 
+#: One attitude (3,), several (n, 3), or pieces (n, 4).
 Row = NDArray[np.float64]
+Rows = NDArray[np.float64]
+
+
+class Frame(NamedTuple):
+    """What edges are made of and checked against.
+
+    shapes: obstacles and bounds of the world.
+    body: shape of the robot and the clearance that it keeps.
+    steering: number of its steering function, as `robots.steering` has it.
+    radius: its turning radius [m].
+    """
+
+    shapes: Shapes
+    body: Body
+    steering: int
+    radius: float
 
 
 @kernel
-def shortest_is_free(
-    shapes: Shapes, body: Body, steering: int, radius: float, start: Pose, end: Pose
-) -> bool:
-    """Whether the shortest word from a free attitude to another is free for ``body``.
-
-    ``steering`` and turning ``radius`` [m] are those of `robots.steering`.
-    """
+def shortest_is_free(frame: Frame, start: Pose, end: Pose) -> bool:
+    """Whether the shortest word from a free attitude to another is free."""
     pieces = np.zeros((MOST_PIECES, 4))
-    number = shortest_word(steering, radius, start, end, pieces)[1]
-    return number >= 0 and word_is_free(shapes, body, start, pieces)
+    number = shortest_word(frame.steering, frame.radius, start, end, pieces)[1]
+    return number >= 0 and word_is_free(frame.shapes, frame.body, start, pieces)
+
+
+@kernel
+def shortest_length(frame: Frame, start: Row, end: Row, pieces: Rows) -> float:
+    """Length [m] of the shortest word, free or not; ``pieces`` (5, 4) is overwritten."""
+    here, there = (start[0], start[1], start[2]), (end[0], end[1], end[2])
+    shortest = inf
+    for number in range(words(frame.steering)):
+        length = word(frame.steering, frame.radius, number, here, there, pieces)
+        shortest = min(shortest, length)
+    return shortest
 
 
 @kernel
 def free_word(
-    shapes: Shapes,
-    body: Body,
-    steering: int,
-    radius: float,
-    start: Row,
-    end: Row,
-    longest: float,
-    pieces: NDArray[np.float64],
+    frame: Frame, start: Row, end: Row, longest: float, pieces: Rows
 ) -> tuple[float, int]:
     """Write the shortest free word of less than ``longest`` [m] to ``pieces`` (5, 4).
 
     Returns its length [m] and number, infinite and -1 when there is none; ``start`` and ``end`` are
-    attitudes (3,).
+    attitudes (3,), the first of them free.
     """
     here, there = (start[0], start[1], start[2]), (end[0], end[1], end[2])
-    count = words(steering)
+    count = words(frame.steering)
     lengths = np.empty(count)
     for number in range(count):
-        lengths[number] = word(steering, radius, number, here, there, pieces)
+        lengths[number] = word(frame.steering, frame.radius, number, here, there, pieces)
     for _ in range(count):
         number = int(np.argmin(lengths))
         length = lengths[number]
         if not length < longest:
             break
-        word(steering, radius, number, here, there, pieces)
-        if word_is_free(shapes, body, here, pieces):
+        word(frame.steering, frame.radius, number, here, there, pieces)
+        if word_is_free(frame.shapes, frame.body, here, pieces):
             return length, number
         lengths[number] = inf
     return inf, -1
+
+
+@kernel
+def edge_lengths(frame: Frame, path: Rows) -> Row:
+    """Lengths [m], shape (n - 1,), of the edges of ``path`` (n, 3), infinite where none is free."""
+    lengths, pieces = np.empty(len(path) - 1), np.zeros((MOST_PIECES, 4))
+    for i in range(len(lengths)):
+        lengths[i] = free_word(frame, path[i], path[i + 1], inf, pieces)[0]
+    return lengths

@@ -8,42 +8,25 @@ from __future__ import annotations
 from math import inf, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
-from motion_planner_node.paths.edges import free_word
+from motion_planner_node.paths.edges import Frame, Rows, edge_lengths, free_word
 from motion_planner_node.robots.arcs import advance
-from motion_planner_node.robots.body import Body
 from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.robots.steering import MOST_PIECES
-from motion_planner_node.world.shapes import Shapes
-
-Rows = NDArray[np.float64]
 
 #: What an edge costs [m] beside its length, so that of equal paths the one of fewer edges is taken.
 EDGE_COST = 1e-6
 
 
 @kernel
-def edge_lengths(shapes: Shapes, body: Body, steering: int, radius: float, path: Rows) -> Rows:
-    """Lengths [m], shape (n - 1,), of the edges of ``path`` (n, 3), infinite where none is free."""
-    lengths, pieces = np.empty(len(path) - 1), np.zeros((MOST_PIECES, 4))
-    for i in range(len(lengths)):
-        lengths[i] = free_word(shapes, body, steering, radius, path[i], path[i + 1], inf, pieces)[0]
-    return lengths
-
-
-@kernel
 def densified(
-    shapes: Shapes,
-    body: Body,
-    steering: int,
-    radius: float,
+    frame: Frame,
     path: Rows,
     spacing: float,
     phase: float,
 ) -> Rows:
     """The attitudes of ``path`` and others on it, about ``spacing`` [m] apart from ``phase`` on."""
-    room = len(path) + int(edge_lengths(shapes, body, steering, radius, path).sum() / spacing) + 2
+    room = len(path) + int(edge_lengths(frame, path).sum() / spacing) + 2
     rows, pieces = np.empty((room, 3)), np.zeros((MOST_PIECES, 4))
     size, due = 0, phase
     for i in range(len(path)):
@@ -52,7 +35,7 @@ def densified(
         size += 1
         if i + 1 == len(path):
             break
-        free_word(shapes, body, steering, radius, path[i], path[i + 1], inf, pieces)
+        free_word(frame, path[i], path[i + 1], inf, pieces)
         for k in range(MOST_PIECES):
             bend, length, direction, turn = pieces[k]
             way = abs(length)
@@ -69,7 +52,7 @@ def densified(
 
 
 @kernel
-def best_subsequence(shapes: Shapes, body: Body, steering: int, radius: float, rows: Rows) -> Rows:
+def best_subsequence(frame: Frame, rows: Rows) -> Rows:
     """The attitudes of ``rows`` (n, 3) that give the shortest path in their order.
 
     The first and the last are among them.
@@ -83,9 +66,7 @@ def best_subsequence(shapes: Shapes, body: Body, steering: int, radius: float, r
         for i in range(j):
             longest = costs[j] - costs[i] - EDGE_COST
             if longest > 0.0:
-                length, word = free_word(
-                    shapes, body, steering, radius, rows[i], rows[j], longest, pieces
-                )
+                length, word = free_word(frame, rows[i], rows[j], longest, pieces)
                 if word >= 0:
                     costs[j], before[j] = costs[i] + length + EDGE_COST, i
     size, j = 0, count - 1
@@ -102,50 +83,44 @@ def best_subsequence(shapes: Shapes, body: Body, steering: int, radius: float, r
 
 
 @kernel
-def nudge(
-    shapes: Shapes, body: Body, steering: int, radius: float, path: Rows, step: float, draws: Rows
-) -> None:
+def nudge(frame: Frame, path: Rows, step: float, draws: Rows) -> None:
     """Move the inner attitudes of ``path`` where that shortens it, by up to ``step`` [m].
 
     ``draws`` (m, 3) are numbers in [-1, 1]; later moves are smaller.
     """
     if len(path) < 3:
         return
-    lengths = edge_lengths(shapes, body, steering, radius, path)
+    lengths = edge_lengths(frame, path)
     moved, pieces = np.empty(3), np.zeros((MOST_PIECES, 4))
     for k in range(len(draws)):
         i = 1 + k % (len(path) - 2)
         reach = step * 0.5 ** (6.0 * k / len(draws))
         moved[0] = path[i, 0] + reach * draws[k, 0]
         moved[1] = path[i, 1] + reach * draws[k, 1]
-        moved[2] = path[i, 2] + min(reach / radius, 0.5 * pi) * draws[k, 2]
+        moved[2] = path[i, 2] + min(reach / frame.radius, 0.5 * pi) * draws[k, 2]
         total = lengths[i - 1] + lengths[i]
-        first = free_word(shapes, body, steering, radius, path[i - 1], moved, total, pieces)[0]
-        second = free_word(
-            shapes, body, steering, radius, moved, path[i + 1], total - first, pieces
-        )[0]
+        first = free_word(frame, path[i - 1], moved, total, pieces)[0]
+        second = free_word(frame, moved, path[i + 1], total - first, pieces)[0]
         if first + second < total:
             for axis in range(3):
                 path[i, axis] = moved[axis]
             lengths[i - 1], lengths[i] = first, second
 
 
-def shortened(
-    shapes: Shapes, body: Body, steering: int, radius: float, path: Rows, points: int, draws: Rows
-) -> Rows:
+def shortened(frame: Frame, path: Rows, points: int, draws: Rows) -> Rows:
     """A path between the same ends that is not longer than ``path`` (n, 3), whose edges are free.
 
     Each round takes about ``points`` attitudes along the path, keeps those that make the shortest
     path, and moves these at random; ``draws`` (rounds, moves, 3) are numbers in [-1, 1].
     """
-    length = float(edge_lengths(shapes, body, steering, radius, path).sum())
+    length = float(edge_lengths(frame, path).sum())
     for moves in draws:
         spacing = length / points
         phase = spacing * 0.5 * (1.0 + float(moves[0, 0]))
-        rows = densified(shapes, body, steering, radius, path, spacing, phase)
-        candidate = best_subsequence(shapes, body, steering, radius, rows)
-        nudge(shapes, body, steering, radius, candidate, 2.0 * max(radius, body.radius), moves)
-        shorter = float(edge_lengths(shapes, body, steering, radius, candidate).sum())
+        rows = densified(frame, path, spacing, phase)
+        candidate = best_subsequence(frame, rows)
+        nudge(frame, candidate, 2.0 * max(frame.radius, frame.body.radius), moves)
+        shorter = float(edge_lengths(frame, candidate).sum())
         if shorter < length:
             path, length = candidate, shorter
     return path

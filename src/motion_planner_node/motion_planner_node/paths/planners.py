@@ -1,0 +1,37 @@
+"""The planners by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from motion_planner_node.codes import Code
+from motion_planner_node.errors import MotionPlannerError
+from motion_planner_node.paths.edges import Rows
+from motion_planner_node.paths.portfolio import default
+from motion_planner_node.paths.query import Query
+from motion_planner_node.paths.sampling import bit_star, prm_star, rrt_connect, rrt_star
+from motion_planner_node.paths.shots import direct
+
+DEFAULT_PLANNER = 'default'
+
+#: A planner gives a path from the start to one of the goals as attitudes (n, 3), or None.
+PLANNERS: dict[str, Callable[[Query], Rows | None]] = {
+    DEFAULT_PLANNER: default,
+    'direct': direct,
+    'rrt_connect': rrt_connect,
+    'rrt_star': rrt_star,
+    'bit_star': bit_star,
+    'prm_star': prm_star,
+}
+
+
+def planner_named(name: str) -> Callable[[Query], Rows | None]:
+    """The planner of this name.
+
+    :raises MotionPlannerError: UNSUPPORTED, with the names that there are
+    """
+    if name not in PLANNERS:
+        raise MotionPlannerError(
+            Code.UNSUPPORTED, f'there is no planner {name!r}; there are {", ".join(PLANNERS)}'
+        )
+    return PLANNERS[name]
