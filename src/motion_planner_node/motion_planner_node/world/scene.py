@@ -7,14 +7,14 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from motion_planner_node.robots.body import Body, necessary_clearance, sufficient_clearance
+from motion_planner_node.robots.body import Body, necessary_clearance
 from motion_planner_node.robots.motion import Motion
 from motion_planner_node.robots.robot import Robot
 from motion_planner_node.world.clearance import clearance_at, clearances
 from motion_planner_node.world.free_space import FreeSpace
 from motion_planner_node.world.model import World
 from motion_planner_node.world.shapes import shapes_of
-from motion_planner_node.world.sweeps import chain_is_free
+from motion_planner_node.world.sweeps import are_free, chain_clearance, chain_is_free
 
 MAP_EDGE = "the map's edge"
 
@@ -40,7 +40,8 @@ class Scene:
 
     def is_free(self, attitudes: ArrayLike, body: Body) -> NDArray[np.bool_]:
         """Which of ``attitudes`` (n, 3) the ``body`` can be in, shape (n,)."""
-        return self.clearance(attitudes) >= sufficient_clearance(body)
+        array = np.ascontiguousarray(np.atleast_2d(np.asarray(attitudes, float)))
+        return are_free(self.shapes, body, array)
 
     def nearest_obstacle(self, x: float, y: float) -> tuple[str, float]:
         """The name of the obstacle nearest to (x, y), or ``MAP_EDGE``, and the clearance [m]."""
@@ -49,9 +50,20 @@ class Scene:
 
     def motion_is_free(self, motion: Motion, robot: Robot) -> bool:
         """Whether the body of ``robot`` is free all along ``motion``: exact, not sampled."""
-        start = np.array([motion.start.x, motion.start.y, motion.start.heading], float)
-        return bool(chain_is_free(self.shapes, robot.body, start, robot.pieces_of(motion.segments)))
+        return bool(chain_is_free(self.shapes, *_chain(motion, robot)))
+
+    def motion_clearance(self, motion: Motion, robot: Robot) -> float:
+        """Least distance [m] of the body of ``robot`` from obstacles and bounds along ``motion``.
+
+        Exact, not sampled; 0 or less when it hits one.
+        """
+        return float(chain_clearance(self.shapes, *_chain(motion, robot)))
 
     def free_space(self, body: Body) -> FreeSpace:
         """Where a ``body`` can be in some heading, and how far it is to drive."""
         return self._free_space(necessary_clearance(body))
+
+
+def _chain(motion: Motion, robot: Robot) -> tuple[Body, NDArray[np.float64], NDArray[np.float64]]:
+    start = np.array([motion.start.x, motion.start.y, motion.start.heading], dtype=np.float64)
+    return robot.body, start, robot.pieces_of(motion.segments)
