@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from motion_planner_node.advice.advisor import Advisor
 from motion_planner_node.errors import Diagnostic, MotionPlannerError, Stopped
 from motion_planner_node.language import Preconditions, check, parse
@@ -29,6 +27,7 @@ from motion_planner_node.requests import (
 )
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.robots.robot import Robot
+from motion_planner_node.stopping import ShouldStop, never
 from motion_planner_node.world import Scene
 from motion_planner_node.world.model import (
     Bounds,
@@ -38,11 +37,8 @@ from motion_planner_node.world.model import (
     WorldObject,
 )
 
-ShouldStop = Callable[[], bool]
-
-
-def _never() -> bool:
-    return False
+#: Robots whose free space is kept.
+MOST_GROUNDS = 8
 
 
 class MotionPlanner:
@@ -56,15 +52,26 @@ class MotionPlanner:
         self.world = world
         self._parameters = parameters or Parameters()
         self._scene = Scene(world)
-        self._grounds: dict[Robot, Ground] = {}
+        self._grounds: Cache[Robot, Ground] = Cache(MOST_GROUNDS)
         size = self._parameters.cache_size
         self._texts: Cache[str, Preconditions] = Cache(size)
         self._remarks: Cache[str, tuple[Diagnostic, ...]] = Cache(size)
         self._streams: Cache[object, Stream] = Cache(size)
         self._advisor = Advisor(world, self._parameters, self._parsed, self._ground)
 
+    def prepare(self) -> None:
+        """Work out what depends on no request, so that none has to wait for it."""
+        for robot in list(self.world.robots.values())[:MOST_GROUNDS]:
+            self._ground(robot)
+
+    def with_parameters(self, parameters: Parameters) -> MotionPlanner:
+        """A planner of the same world with other parameters."""
+        planner = MotionPlanner(self.world, parameters)
+        planner.prepare()
+        return planner
+
     def satisfy(
-        self, request: GeometricRequest, should_stop: ShouldStop = _never
+        self, request: GeometricRequest, should_stop: ShouldStop = never
     ) -> GeometricAnswer:
         """Find an attitude that meets the preconditions, and a motion to it (Algorithm 1).
 
@@ -97,22 +104,24 @@ class MotionPlanner:
     ) -> GeometricAnswer:
         state = tuple(problem.state.items())
         mode = request.mode or self._parameters.mode
-        key = (request.preconditions, problem.agent, state, request.seed, mode)
+        planner = request.planner or self._parameters.planner
+        key = (request.preconditions, problem.agent, state, request.seed, mode, planner)
         stream_of = PaperStream if mode == PAPER_MODE else Stream
         stream = self._streams.get(
-            key, lambda: stream_of(problem, ground, self._parameters, request.seed)
+            key, lambda: stream_of(problem, ground, self._parameters, request.seed, planner)
         )
         try:
-            found = stream.find(request.alternative, should_stop)
+            with problem.program.broken_off_by(should_stop):
+                found = stream.find(request.alternative, should_stop)
+                if found:
+                    return answers.found(problem, ground, found)
+                if stream.proof:
+                    return answers.impossible(problem, ground, stream.proof)
+                return answers.exhausted(problem, ground, stream.tried, request.alternative)
         except Stopped:
             return answers.out_of_time(problem, ground, stream.tried)
-        if found:
-            return answers.found(problem, ground, found)
-        if stream.proof:
-            return answers.impossible(problem, ground, stream.proof)
-        return answers.exhausted(problem, ground, stream.tried, request.alternative)
 
-    def advise(self, request: AdviceRequest, should_stop: ShouldStop = _never) -> AdviceAnswer:
+    def advise(self, request: AdviceRequest, should_stop: ShouldStop = never) -> AdviceAnswer:
         """Say what each candidate would cost from here, and which to try first.
 
         :raises MotionPlannerError: when there can be no advice at all, as for `satisfy`
@@ -128,9 +137,7 @@ class MotionPlanner:
         return self._texts.get(text, lambda: parse(text))
 
     def _ground(self, robot: Robot) -> Ground:
-        if robot not in self._grounds:
-            self._grounds[robot] = Ground(self._scene, robot)
-        return self._grounds[robot]
+        return self._grounds.get(robot, lambda: Ground(self._scene, robot))
 
 
 def warm_up() -> None:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from time import perf_counter
 
 from motion_planner_node.codes import Code
-from motion_planner_node.errors import MotionPlannerError
+from motion_planner_node.errors import MotionPlannerError, Stopped
 
 #: Why a request was broken off, in words.
 REASONS = {
@@ -28,6 +28,7 @@ class Turn:
         self._clock = clock
 
     def __call__(self) -> bool:
+        """Whether the work has to stop."""
         return self.cancelled or self._clock() > self._end
 
     @property
@@ -61,7 +62,8 @@ class Turns:
     def take(self, request_id: str, budget: float) -> Iterator[Turn]:
         """Wait for the turn of a request that has ``budget`` [s], and have it inside the block.
 
-        :raises MotionPlannerError: CANCELLED or OUT_OF_TIME when that comes first
+        :raises MotionPlannerError: CANCELLED or OUT_OF_TIME when that comes first, and for a
+            Stopped inside the block
         """
         turn = Turn(request_id, self._clock() + budget, self._clock)
         with self._changed:
@@ -70,6 +72,8 @@ class Turns:
         try:
             self._wait(turn)
             yield turn
+        except Stopped:
+            raise turn.broken_off() from None
         finally:
             with self._changed:
                 self._queue.remove(turn)
@@ -77,23 +81,24 @@ class Turns:
 
     def cancel(self, request_id: str) -> int:
         """Break off all that wait or run under ``request_id``; returns how many."""
-        return self._cancel(lambda turn: turn.request_id == request_id)
+        with self._changed:
+            return self._cancel([turn for turn in self._queue if turn.request_id == request_id])
 
     def close(self) -> None:
         """Break off everything, and whatever still comes."""
-        self._closed = True
-        self._cancel(lambda turn: True)
+        with self._changed:
+            self._closed = True
+            self._cancel(self._queue)
 
     def __len__(self) -> int:
         return len(self._queue)
 
-    def _cancel(self, meant: Callable[[Turn], bool]) -> int:
-        with self._changed:
-            turns = [turn for turn in self._queue if meant(turn) and not turn.cancelled]
-            for turn in turns:
-                turn.cancelled = True
-            self._changed.notify_all()
-        return len(turns)
+    def _cancel(self, turns: Iterable[Turn]) -> int:
+        going = [turn for turn in turns if not turn.cancelled]
+        for turn in going:
+            turn.cancelled = True
+        self._changed.notify_all()
+        return len(going)
 
     def _wait(self, turn: Turn) -> None:
         with self._changed:

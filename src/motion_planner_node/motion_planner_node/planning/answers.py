@@ -110,6 +110,13 @@ def out_of_time(problem: Problem, ground: Ground, tried: Tried) -> GeometricAnsw
     )
 
 
+def as_cancelled(answer: GeometricAnswer) -> GeometricAnswer:
+    """``answer`` when it was not the clock that broke the request off, but its client."""
+    if answer.code is not Code.OUT_OF_TIME:
+        return answer
+    return replace(answer, code=Code.CANCELLED, message='the request was cancelled')
+
+
 def exhausted(problem: Problem, ground: Ground, tried: Tried, alternative: int) -> GeometricAnswer:
     """All rounds are over and nothing (more) was found; nothing is proven."""
     about = replace(_about(problem, ground), attempts=tuple(tried.attempts))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from copy import copy
 from functools import cached_property
 from math import isfinite, isnan, pi
@@ -30,6 +31,7 @@ from motion_planner_node.satisfaction.cells import Cells, possible_positions
 from motion_planner_node.satisfaction.conflicts import contradiction
 from motion_planner_node.satisfaction.recording import Table, record
 from motion_planner_node.satisfaction.row import Row, wrap_angle
+from motion_planner_node.stopping import ShouldStop, go_on, never
 from motion_planner_node.world.model import Bounds, World
 
 #: Violation up to which a constraint counts as met by a destination, in the constraint's unit, for
@@ -66,6 +68,7 @@ class Program:
         self.objects = preconditions.objects
         self.assigns = preconditions.assigns
         self.contradictions = contradictions
+        self._should_stop: ShouldStop = never
         self._preconditions = preconditions
         self._world = world
         self._fields = {label: world.objects[label].fields for label in self.objects}
@@ -78,6 +81,15 @@ class Program:
             (abs(value) for fields in places.values() for value in fields.values()), default=0.0
         )
         self.tolerance = TOLERANCE + 16.0 * float(np.finfo(np.float64).eps) * largest
+
+    @contextmanager
+    def broken_off_by(self, should_stop: ShouldStop) -> Iterator[None]:
+        """Inside the block whatever is computed with the program raises Stopped when it is to stop."""
+        before, self._should_stop = self._should_stop, should_stop
+        try:
+            yield
+        finally:
+            self._should_stop = before
 
     def apply_commands(self, state: GeometricState) -> GeometricState:
         """The state after the commands, in their order; what they do not set stays as it is.
@@ -121,6 +133,7 @@ class Program:
         self, states: Array, *, derivatives: Literal['none', 'truncated', 'full'] = 'none'
     ) -> list[tuple[Dual, Dual]]:
         """The left and right sides of the constraints at ``states`` (n, 3)."""
+        go_on(self._should_stop)
         columns = np.ascontiguousarray(states.T)
         if derivatives == 'none':
             state = [Dual(column) for column in columns]
@@ -167,6 +180,7 @@ class Program:
 
     def bounds(self, x: Interval, y: Interval, heading: Interval) -> list[Interval]:
         """Bounds of the functions f_i over boxes of attitudes, headings within [-pi, pi]."""
+        go_on(self._should_stop)
         with np.errstate(all='ignore'):
             values = self._tape.run((x, y, heading), Interval.constant)
             return [row.bounds(values[row.left], values[row.right]) for row in self.rows]
