@@ -40,6 +40,8 @@ def found(problem: Problem, ground: Ground, result: Found) -> GeometricAnswer:
         _about(problem, ground),
         end=problem.moved_to(result.end),
         motion=result.motion,
+        duration=ground.robot.duration(result.motion),
+        clearance=ground.scene.motion_clearance(result.motion, ground.robot),
         residuals=problem.program.residuals(result.end),
         attempts=tuple(result.tried.attempts),
     )
