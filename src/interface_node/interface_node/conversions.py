@@ -113,6 +113,8 @@ def step_from_message(step: msg.Step) -> Step:
             Segment(s.steering_angle, s.length, s.direction, s.turn) for s in motion.segments
         ),
         length=answer.length,
+        duration=motion.duration,
+        clearance=motion.clearance,
         residuals=tuple(Residual(r.constraint, r.violation, r.satisfied) for r in answer.residuals),
         alternative=answer.alternative,
     )

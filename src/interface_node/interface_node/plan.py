@@ -106,7 +106,8 @@ class Step:
     """One action; ``agent`` is empty and there is no ``end`` when it is purely symbolic.
 
     ``state`` holds the attitudes of the agents before the action, ``end`` that of its agent after
-    it. ``motion_start`` is where the segments begin, nothing when the robot was not driven.
+    it. ``motion_start`` is where the segments begin, nothing when the robot was not driven; it is
+    then that ``clearance`` [m], the least along the motion, and ``duration`` [s] mean something.
     """
 
     action: tuple[str, ...]
@@ -121,6 +122,8 @@ class Step:
     motion_start: Attitude | None = None
     segments: tuple[Segment, ...] = ()
     length: float = 0.0
+    duration: float = 0.0
+    clearance: float = 0.0
     residuals: tuple[Residual, ...] = ()
     alternative: int = 0
 
@@ -151,6 +154,11 @@ class Plan:
     def length(self) -> float:
         """Length [m] of all motions."""
         return float(sum(step.length for step in self.steps))
+
+    @property
+    def duration(self) -> float:
+        """Time [s] that all motions take, one after the other."""
+        return float(sum(step.duration for step in self.steps))
 
     @property
     def robot(self) -> Robot | None:

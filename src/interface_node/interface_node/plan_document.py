@@ -35,6 +35,7 @@ def plan_document(plan: Plan) -> dict[str, Any]:
         'robots': [_robot(item) for item in plan.world.robots] if plan.world else [],
         'steps': steps,
         'length': number(plan.length),
+        'duration': number(plan.duration),
         'planning_time': number(plan.planning_time),
         'statistics': _statistics(plan.statistics),
     }
@@ -62,6 +63,8 @@ def _step(step: Step, standing: Attitude | None) -> dict[str, Any]:
         'end': _attitude(step.end if step.agent else standing),
         'segments': [_segment(segment) for segment in step.segments],
         'length': number(step.length),
+        'duration': number(step.duration),
+        'clearance': number(step.clearance) if step.motion_start else None,
         'preconditions': step.preconditions,
         'residuals': [
             {

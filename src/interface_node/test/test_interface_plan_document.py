@@ -36,7 +36,9 @@ def test_the_contract_is_kept(sample_plan: Plan) -> None:
         '!charge',
         '!take_photo',
     ]
-    assert document['length'] == sum(step['length'] for step in document['steps'])
+    for key in ('length', 'duration'):
+        assert document[key] == sum(step[key] for step in document['steps'])
+    assert [step['clearance'] for step in document['steps']] == [None, 2.5, None, 2.5]
 
 
 def test_a_stranger_can_drive_the_plan_from_the_file_alone(sample_plan: Plan) -> None:
