@@ -81,7 +81,7 @@ def room(world: World, body: Body, attitude: Pose) -> float:
         else:
             away = shape.distance(shapely.Polygon(obstacle.corners))
         least = min(least, away)
-    return least - radius
+    return float(least - radius)
 
 
 def samples(

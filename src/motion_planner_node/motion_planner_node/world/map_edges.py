@@ -12,46 +12,47 @@ from motion_planner_node.world.model import OccupancyMap
 
 
 @kernel
-def _occupied(cells: NDArray[np.uint8], outside: int, row: int, column: int) -> bool:
-    rows, columns = cells.shape
-    if 0 <= row < rows and 0 <= column < columns:
-        return bool(cells[row, column] != 0)
-    return outside != 0
-
-
-@kernel
 def _runs(cells: NDArray[np.uint8], outside: int, most: int, runs: NDArray[np.int32]) -> int:
     """Count the edges and write the first of them to ``runs`` (n, 4); stop after ``most``.
 
     A row is column and row of one end and of the other, in cells from the first cell's corner.
+    One pass, row by row: edges that go north are begun in one row and ended in a later one.
     """
     rows, columns = cells.shape
     count = 0
-    for along in range(2):
-        lines, length = (rows, columns) if along == 0 else (columns, rows)
-        for line in range(lines + 1):
-            start = -1
-            for i in range(length + 1):
-                differs = False
-                if i < length and along == 0:
-                    differs = _occupied(cells, outside, line - 1, i) != _occupied(
-                        cells, outside, line, i
-                    )
-                elif i < length:
-                    differs = _occupied(cells, outside, i, line - 1) != _occupied(
-                        cells, outside, i, line
-                    )
-                if differs and start < 0:
-                    start = i
-                elif not differs and start >= 0:
-                    if count < len(runs) and along == 0:
-                        runs[count] = start, line, i, line
-                    elif count < len(runs):
-                        runs[count] = line, start, line, i
-                    count += 1
-                    start = -1
-            if count > most:
-                return count
+    below = np.full(columns, outside, np.uint8)
+    here = np.full(columns, outside, np.uint8)
+    begun = np.full(columns + 1, -1)
+    for row in range(rows + 1):
+        if row < rows:
+            here[:] = cells[row]
+        else:
+            here[:] = outside
+        start = -1
+        west = outside
+        for column in range(columns + 1):
+            is_inside = column < columns
+            east = int(here[column]) if is_inside else outside
+            differs = is_inside and east != below[column]
+            if differs and start < 0:
+                start = column
+            elif not differs and start >= 0:
+                if count < len(runs):
+                    runs[count] = start, row, column, row
+                count += 1
+                start = -1
+            differs = row < rows and east != west
+            if differs and begun[column] < 0:
+                begun[column] = row
+            elif not differs and begun[column] >= 0:
+                if count < len(runs):
+                    runs[count] = column, begun[column], column, row
+                count += 1
+                begun[column] = -1
+            west = east
+        if count > most:
+            break
+        below[:] = here
     return count
 
 

@@ -1,10 +1,12 @@
-"""World files: YAML with ``bounds``, ``objects``, ``obstacles``, ``robots``, ``regions``; see docs/world.md."""
+"""World files: YAML, or what a program sends; see docs/world.md."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from motion_planner_node.world.model import Bounds, World, WorldObject
+from motion_planner_node.world.files import directory_of
+from motion_planner_node.world.map_reader import check_map, read_map
+from motion_planner_node.world.model import Bounds, OccupancyMap, World, WorldObject
 from motion_planner_node.world.obstacles import read_obstacles, read_regions
 from motion_planner_node.world.revision import revision_of
 from motion_planner_node.world.robots_reader import check_starts, read_robots
@@ -29,39 +31,65 @@ MOST_OBJECTS = 10_000
 class _WorldReader:
     """Reads the parts of one world; what is wrong goes to ``faults``."""
 
-    def __init__(self, source: str) -> None:
+    def __init__(self, source: str, directory: str) -> None:
         self._source = source
+        self._directory = directory
         self._faults = Faults(source)
 
-    def read(self, root: Node) -> World:
+    def read(self, root: Node, grid: OccupancyMap | None) -> World:
         parts = read_fields(
             root,
             'the world',
-            ('bounds',),
-            ('objects', 'obstacles', 'robots', 'regions'),
+            (),
+            ('bounds', 'map', 'objects', 'obstacles', 'robots', 'regions'),
             self._faults,
         )
         given = {key: node for key, node in parts.items() if not is_nothing(node)}
-        bounds = self._bounds(given['bounds']) if 'bounds' in given else None
+        grid = self._map(root, given, grid)
+        bounds = self._bounds(given['bounds'], grid) if 'bounds' in given else None
+        if 'bounds' in parts and 'bounds' not in given:
+            self._faults.add('bounds are empty', parts['bounds'].place)
+        elif bounds is None and grid is not None:
+            bounds = grid.bounds
+        elif isinstance(root, Mapping) and 'bounds' not in given and 'map' not in given:
+            self._faults.add('the world lacks bounds', root.place)
         objects = self._objects(given['objects'], bounds) if 'objects' in given else {}
-        obstacles = read_obstacles(given['obstacles'], self._faults) if 'obstacles' in given else ()
+        obstacles = (
+            read_obstacles(given['obstacles'], self._directory, self._faults)
+            if 'obstacles' in given
+            else ()
+        )
         robots, starts = (
             read_robots(given['robots'], objects, self._faults) if 'robots' in given else ({}, [])
         )
         taken = {*objects, *robots}
-        regions = read_regions(given['regions'], taken, self._faults) if 'regions' in given else {}
+        regions = (
+            read_regions(given['regions'], self._directory, taken, self._faults)
+            if 'regions' in given
+            else {}
+        )
         if bounds is None:
-            if 'bounds' in parts and 'bounds' not in given:
-                self._faults.add('bounds are empty', parts['bounds'].place)
             raise self._faults.error()
-        world = World(self._source, '', bounds, objects, obstacles, robots, regions)
+        world = World(self._source, '', bounds, objects, obstacles, robots, regions, grid)
         if starts:
             check_starts(Scene(world), starts, self._faults)
         if self._faults:
             raise self._faults.error()
         return replace(world, revision=revision_of(world))
 
-    def _bounds(self, node: Node) -> Bounds | None:
+    def _map(
+        self, root: Node, given: dict[str, Node], grid: OccupancyMap | None
+    ) -> OccupancyMap | None:
+        if grid is None:
+            if 'map' not in given:
+                return None
+            return read_map(given['map'], self._directory, self._faults)
+        if 'map' in given:
+            message = 'the world names a map, and another one came along with it'
+            self._faults.add(message, given['map'].place)
+        return check_map(grid, self._faults, root.place)
+
+    def _bounds(self, node: Node, grid: OccupancyMap | None) -> Bounds | None:
         numbers = read_numbers(node, 'bounds', ('x_min', 'y_min', 'x_max', 'y_max'), self._faults)
         if not numbers:
             return None
@@ -71,6 +99,9 @@ class _WorldReader:
             message = f'bounds enclose no area: {width:g} m by {height:g} m'
             self._faults.add(message, node.place)
             return None
+        if grid is not None and not _overlap(bounds, grid.bounds):
+            message = f'the map, {_words(grid.bounds)}, is outside the bounds {_words(bounds)}'
+            self._faults.add(message, node.place)
         return bounds
 
     def _objects(self, node: Node, bounds: Bounds | None) -> dict[str, WorldObject]:
@@ -96,16 +127,27 @@ class _WorldReader:
 
     def _check_inside(self, bounds: Bounds, label: str, x: float, y: float, place: Place) -> None:
         if not (bounds.x_min <= x <= bounds.x_max and bounds.y_min <= y <= bounds.y_max):
-            message = (
-                f'{label} is at ({x:g}, {y:g}), outside the bounds [{bounds.x_min:g}, '
-                f'{bounds.y_min:g}, {bounds.x_max:g}, {bounds.y_max:g}]'
-            )
+            message = f'{label} is at ({x:g}, {y:g}), outside the bounds {_words(bounds)}'
             self._faults.add(message, place)
 
 
-def read_world(text: str, source: str) -> World:
+def _words(bounds: Bounds) -> str:
+    return f'[{bounds.x_min:g}, {bounds.y_min:g}, {bounds.x_max:g}, {bounds.y_max:g}]'
+
+
+def _overlap(a: Bounds, b: Bounds) -> bool:
+    beside = a.x_max <= b.x_min or b.x_max <= a.x_min
+    return not (beside or a.y_max <= b.y_min or b.y_max <= a.y_min)
+
+
+def read_world(
+    text: str, source: str, directory: str = '', grid: OccupancyMap | None = None
+) -> World:
     """The world that ``text`` describes; ``source`` names the file in errors.
 
+    Files that the text names are looked for from ``directory`` on, or where none is given from
+    that of ``source``.  ``grid`` is a map to add to a world that names none.
     Raises MotionPlannerError (NO_WORLD) with a diagnostic, line and column for every fault.
     """
-    return _WorldReader(source).read(read_tree(text, source))
+    reader = _WorldReader(source, directory or directory_of(source))
+    return reader.read(read_tree(text, source), grid)

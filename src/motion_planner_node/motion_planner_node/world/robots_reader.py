@@ -11,7 +11,7 @@ from motion_planner_node.robots.model import Model
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.robots.registry import MODELS
 from motion_planner_node.robots.robot import Robot
-from motion_planner_node.world.obstacles import read_polygon
+from motion_planner_node.world.outlines import read_polygon
 from motion_planner_node.world.scene import Scene
 from motion_planner_node.world.syntax import Mapping, Node, Place
 from motion_planner_node.world.values import (

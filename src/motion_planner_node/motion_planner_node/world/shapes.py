@@ -79,7 +79,8 @@ _ARRAYS = {
     'occupied': types.Array(types.uint8, 2, 'C', readonly=True),
     'cells': types.float64[::1],
 }
-_TYPE = ShapesType(list(_ARRAYS.items()))
+#: For structures of kernels that hold shapes.
+SHAPES_TYPE = ShapesType(list(_ARRAYS.items()))
 
 
 @kernel
@@ -91,7 +92,7 @@ def _reference(
     cells: NDArray[np.float64],
 ) -> Any:
     """The shapes with ``outlines``: bounds, edges, discs and boxes."""
-    shapes = structref.new(_TYPE)
+    shapes = structref.new(SHAPES_TYPE)
     shapes.bounds, shapes.edges, shapes.discs, shapes.boxes = outlines
     shapes.first_edge = first_edge
     shapes.frame, shapes.buckets, shapes.items = index.frame, index.buckets, index.items
