@@ -10,6 +10,7 @@ from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescri
 
 from motion_planner_node.codes import Code
 from motion_planner_node.errors import Diagnostic, MotionPlannerError
+from motion_planner_node.map_conversions import map_to_msg
 from motion_planner_node.motion_conversions import (
     agent_state_to_msg,
     attitude_from_msg,
@@ -64,6 +65,7 @@ def request_from_msg(request: msg.GeometricRequest) -> GeometricRequest:
         time_budget=request.time_budget,
         request_id=request.request_id,
         mode=request.mode,
+        planner=request.planner,
     )
 
 
@@ -84,6 +86,7 @@ def advice_request_from_msg(request: msg.AdviceRequest) -> AdviceRequest:
         world_revision=request.world_revision,
         seed=request.seed,
         request_id=request.request_id,
+        pairwise=request.pairwise,
     )
 
 
@@ -140,6 +143,8 @@ def advice_to_msg(
         world_revision=answer.world_revision,
         candidates=[_candidate_to_msg(candidate) for candidate in answer.candidates],
         order=[int(index) for index in answer.order],
+        pairwise_lower_bounds=list(answer.pairwise_lower_bounds),
+        pairwise_estimates=list(answer.pairwise_estimates),
         time_spent=float(time_spent),
     )
 
@@ -173,7 +178,7 @@ def diagnostics_to_msg(diagnostics: Iterable[Diagnostic]) -> list[msg.Diagnostic
 
 
 def world_to_msg(world: World) -> msg.World:
-    """The world, its objects, obstacles, robots and regions in their order."""
+    """The world, its objects, obstacles, robots, regions and map, in their order."""
     return msg.World(
         source=world.source,
         revision=world.revision,
@@ -192,6 +197,7 @@ def world_to_msg(world: World) -> msg.World:
         obstacles=[_obstacle_to_msg(obstacle) for obstacle in world.obstacles],
         regions=[_region_to_msg(region) for region in world.regions.values()],
         robots=[robot_to_msg(robot) for robot in world.robots.values()],
+        map=[map_to_msg(world.map)] if world.map else [],
     )
 
 

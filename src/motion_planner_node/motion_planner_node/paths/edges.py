@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from math import inf
-from typing import NamedTuple
 
 import numpy as np
+from numba import typeof, types
+from numba.experimental import structref
 from numpy.typing import NDArray
 
 from motion_planner_node.robots.body import Body
 from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.robots.motion import Pose
 from motion_planner_node.robots.steering import MOST_PIECES, shortest_word, word, words
-from motion_planner_node.world.shapes import Shapes
+from motion_planner_node.world.shapes import SHAPES_TYPE, Shapes
 from motion_planner_node.world.sweeps import word_is_free
 
 #: One attitude (3,), several (n, 3), or pieces (n, 4).
@@ -20,8 +21,13 @@ Row = NDArray[np.float64]
 Rows = NDArray[np.float64]
 
 
-class Frame(NamedTuple):
-    """What edges are made of and checked against.
+@structref.register
+class FrameType(types.StructRef):
+    """The type of `Frame` in kernels."""
+
+
+class Frame(structref.StructRefProxy):
+    """What edges are made of and checked against; kernels get a reference to it.
 
     shapes: obstacles and bounds of the world.
     body: shape of the robot and the clearance that it keeps.
@@ -33,6 +39,26 @@ class Frame(NamedTuple):
     body: Body
     steering: int
     radius: float
+
+
+structref.define_boxing(FrameType, Frame)
+
+_TYPE = FrameType(
+    [
+        ('shapes', SHAPES_TYPE),
+        ('body', typeof(Body(np.zeros((0, 2)), 0.0, 0.0, 0.0))),
+        ('steering', types.int64),
+        ('radius', types.float64),
+    ]
+)
+
+
+@kernel
+def frame_of(shapes: Shapes, body: Body, steering: int, radius: float) -> Frame:
+    """The frame of these parts."""
+    frame: Frame = structref.new(_TYPE)
+    frame.shapes, frame.body, frame.steering, frame.radius = shapes, body, steering, radius
+    return frame
 
 
 @kernel

@@ -29,7 +29,7 @@ def simplified(query: Query, path: Rows, number: int = 0) -> Rows:
     points, moves, rounds = LOOK
     for draws in query.random(1, number).uniform(-1.0, 1.0, (rounds, 1, moves, 3)):
         query.check_time()
-        path = shortened(query.frame, path, points, draws)
+        path = shortened(query.frame, path, points, 2.0 * query.reach, draws)
     return path
 
 
@@ -60,6 +60,6 @@ def refined(query: Query, path: Rows) -> Rows:
 def _probes(query: Query, along: Rows, random: np.random.Generator, scale: float) -> Rows:
     """Attitudes (n, 3) round those of the last part of a path."""
     tail = along[int((1.0 - TAIL) * len(along)) :]
-    spread = scale * max(query.frame.radius, query.frame.body.radius)
+    spread = scale * query.reach
     chosen = tail[random.integers(len(tail), size=PROBES)]
     return chosen + random.normal(size=(PROBES, 3)) * (spread, spread, 0.5)

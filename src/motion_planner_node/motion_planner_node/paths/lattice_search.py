@@ -94,7 +94,7 @@ class _End:
         self.field = query.field_from(target)
         robot = query.robot
         unit = robot.turning_radius or STEP * max(self.field.cell, robot.radius)
-        corner = query.frame.shapes.bounds[:2]
+        corner = query.scene.shapes.bounds[:2]
         self._grain = Grain(corner, level.cell * unit, level.headings, level.weight)
         moves, prices = moves_of(robot, level.turn * unit, 2.0 * pi / level.headings)
         self._task = Task(target, sign, moves, prices)
@@ -142,8 +142,8 @@ def _search(query: Query, level: Level, longest: float) -> Rows | None:
         turn *= 2
     if path is None:
         count = sum(expanded(end.lattice) for end in ends)
-        all_there_are = any(end.state == EXHAUSTED for end in ends)
+        query.hopeless = any(end.state == EXHAUSTED for end in ends)
         query.efforts.append(
-            f'{count} attitudes of a lattice{", all that there are" if all_there_are else ""}'
+            f'{count} attitudes of a lattice{", all that there are" if query.hopeless else ""}'
         )
     return path

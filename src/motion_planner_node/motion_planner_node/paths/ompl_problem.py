@@ -9,8 +9,7 @@ from ompl import base, util
 
 from motion_planner_node.paths.edges import Frame, Row, shortest_is_free
 from motion_planner_node.paths.query import Query
-from motion_planner_node.robots.body import sufficient_clearance
-from motion_planner_node.world.clearance import clearance_at
+from motion_planner_node.world.sweeps import is_free_at
 
 util.setLogLevel(util.LogLevel.LOG_NONE)
 
@@ -53,16 +52,16 @@ class Iterations:
 
 def space_of(query: Query) -> base.StateSpace:
     """The state space of the robot's model over the map."""
-    x_min, y_min, x_max, y_max = (float(value) for value in query.frame.shapes.bounds)
+    x_min, y_min, x_max, y_max = (float(value) for value in query.scene.shapes.bounds)
     return query.robot.space((x_min, y_min, x_max, y_max))
 
 
 def information_of(query: Query, space: base.StateSpace) -> base.SpaceInformation:
     """Which states and edges of ``space`` are free."""
     information = base.SpaceInformation(space)
-    shapes, margin = query.frame.shapes, sufficient_clearance(query.frame.body)
+    shapes, body = query.scene.shapes, query.body
     information.setStateValidityChecker(
-        lambda state: bool(clearance_at(shapes, state.getX(), state.getY())[0] >= margin)
+        lambda state: is_free_at(shapes, body, (state.getX(), state.getY(), state.getYaw()))
     )
     information.setMotionValidator(Edges(information, query.frame))
     return information

@@ -36,7 +36,7 @@ def plan_path(
     :raises Stopped: when ``should_stop`` says so
     :raises MotionPlannerError: UNSUPPORTED for a name that no ``planner`` has
     """
-    find = planner_named(planner)
+    chosen = planner_named(planner)
     if should_stop():
         raise Stopped
     if not goals:
@@ -63,10 +63,13 @@ def plan_path(
     query = Query(
         scene, robot, start, rows[connected], seed, budget or PathBudget(), should_stop, region
     )
-    raw = find(query)
+    raw = chosen.find(query)
     if raw is not None:
-        simple = simplified(query, raw)
-        motion, which = first_valid(query, [refined(query, simple), simple, raw])
+        paths = [raw]
+        if chosen.improves:
+            simple = simplified(query, raw)
+            paths = [refined(query, simple), simple, raw]
+        motion, which = first_valid(query, paths)
         if motion is not None:
             which = int(connected[which]) if which >= 0 else -1
             return PathResult(PathOutcome.FOUND, motion, which)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 from motion_planner_node.codes import Code
 from motion_planner_node.errors import MotionPlannerError
@@ -14,18 +15,29 @@ from motion_planner_node.paths.shots import direct
 
 DEFAULT_PLANNER = 'default'
 
-#: A planner gives a path from the start to one of the goals as attitudes (n, 3), or None.
-PLANNERS: dict[str, Callable[[Query], Rows | None]] = {
-    DEFAULT_PLANNER: default,
-    'direct': direct,
-    'rrt_connect': rrt_connect,
-    'rrt_star': rrt_star,
-    'bit_star': bit_star,
-    'prm_star': prm_star,
+
+class Planner(NamedTuple):
+    """A way to plan paths.
+
+    find: gives a path from the start to one of the goals as attitudes (n, 3), or None.
+    improves: whether the path is made shorter before it is handed out.
+    """
+
+    find: Callable[[Query], Rows | None]
+    improves: bool = True
+
+
+PLANNERS = {
+    DEFAULT_PLANNER: Planner(default),
+    'direct': Planner(direct, improves=False),
+    'rrt_connect': Planner(rrt_connect),
+    'rrt_star': Planner(rrt_star),
+    'bit_star': Planner(bit_star),
+    'prm_star': Planner(prm_star),
 }
 
 
-def planner_named(name: str) -> Callable[[Query], Rows | None]:
+def planner_named(name: str) -> Planner:
     """The planner of this name.
 
     :raises MotionPlannerError: UNSUPPORTED, with the names that there are

@@ -13,11 +13,13 @@ from motion_planner_node.paths.shots import direct
 def default(query: Query) -> Rows | None:
     """A path that is short before it is improved, as attitudes (n, 3)."""
     shot = direct(query)
-    if shot is None:
-        path = search_lattice(query)
-        return rrt_connect(query) if path is None else path
-    length = length_of(query, shot)
-    if length <= query.budget.good_enough * float(query.estimates.min()):
-        return shot
-    path = search_lattice(query, length)
-    return shot if path is None else path
+    if shot is not None:
+        length = length_of(query, shot)
+        if length <= query.budget.good_enough * float(query.estimates.min()):
+            return shot
+        path = search_lattice(query, length)
+        return shot if path is None else path
+    path = search_lattice(query)
+    if path is None and not query.hopeless:
+        path = rrt_connect(query)
+    return path

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motion_planner_node.errors import Stopped
-from motion_planner_node.paths.edges import Frame, Row, Rows
+from motion_planner_node.paths.edges import Row, Rows, frame_of
 from motion_planner_node.paths.field import Field, field_at, field_of
 from motion_planner_node.paths.result import PathBudget
 from motion_planner_node.robots.body import sufficient_clearance
@@ -52,16 +52,19 @@ class Query:
         self.should_stop = should_stop
         #: What was tried in vain, as parts of a sentence.
         self.efforts: list[str] = []
+        #: Whether a close look has shown that the start leads nowhere, or nothing to the goals.
+        self.hopeless = False
         self._seed = seed & (2**64 - 1)
         spare = float(scene.clearance(np.vstack((self.start, goals))).min()) - sufficient_clearance(
             robot.body
         )
-        body = robot.body
-        margin = body.margin + min(max(spare, 0.0), SPARE_CLEARANCE * robot.radius)
-        #: What edges are checked against, with a little clearance to spare.
-        self.frame = Frame(
-            scene.shapes, body._replace(margin=margin), robot.steering, robot.turning_radius
-        )
+        margin = robot.body.margin + min(max(spare, 0.0), SPARE_CLEARANCE * robot.radius)
+        #: The robot's, with a little clearance to spare.
+        self.body = robot.body._replace(margin=margin)
+        #: What edges are made of and checked against.
+        self.frame = frame_of(scene.shapes, self.body, robot.steering, robot.turning_radius)
+        #: How far [m] attitudes are moved at first to see whether that is better.
+        self.reach = max(robot.turning_radius, robot.radius)
 
     @cached_property
     def field(self) -> Field:

@@ -107,11 +107,11 @@ def nudge(frame: Frame, path: Rows, step: float, draws: Rows) -> None:
             lengths[i - 1], lengths[i] = first, second
 
 
-def shortened(frame: Frame, path: Rows, points: int, draws: Rows) -> Rows:
+def shortened(frame: Frame, path: Rows, points: int, reach: float, draws: Rows) -> Rows:
     """A path between the same ends that is not longer than ``path`` (n, 3), whose edges are free.
 
     Each round takes about ``points`` attitudes along the path, keeps those that make the shortest
-    path, and moves these at random; ``draws`` (rounds, moves, 3) are numbers in [-1, 1].
+    path, and moves these at random by up to ``reach`` [m]; ``draws`` (rounds, moves, 3) are numbers in [-1, 1].
     """
     length = float(edge_lengths(frame, path).sum())
     for moves in draws:
@@ -119,7 +119,7 @@ def shortened(frame: Frame, path: Rows, points: int, draws: Rows) -> Rows:
         phase = spacing * 0.5 * (1.0 + float(moves[0, 0]))
         rows = densified(frame, path, spacing, phase)
         candidate = best_subsequence(frame, rows)
-        nudge(frame, candidate, 2.0 * max(frame.radius, frame.body.radius), moves)
+        nudge(frame, candidate, reach, moves)
         shorter = float(edge_lengths(frame, candidate).sum())
         if shorter < length:
             path, length = candidate, shorter

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import tau
+from math import floor
 
 import numpy as np
 from numpy.typing import NDArray
 
+from motion_planner_node.paths.turning_room import turning_room
 from motion_planner_node.planning.boxes import Boxes, Pyramid
 from motion_planner_node.robots.body import necessary_clearance
 from motion_planner_node.robots.driving import shortest_between
-from motion_planner_node.robots.motion import Attitude, Motion, Segment
+from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import Room
 from motion_planner_node.world.scene import Scene
@@ -20,9 +21,6 @@ from motion_planner_node.world.scene import Scene
 WHOLE_MAP_BOXES = 96
 #: Places on the rim of an area whose nearest obstacles are named.
 RIM_PLACES = 256
-
-#: Turning radii that a car may drive ahead before it looks for room to turn.
-RUN_UPS = (0.0, 1.0, 2.0, 4.0, 8.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +43,13 @@ class Ground:
         #: Number of the connected part of the free space that each of ``cells`` is in, (n,).
         self.parts = self._free.components_of(*self.cells.boxes.centres)
         bounds = scene.world.bounds
+        # Numbers of the cells on a grid with a closed cell all round; -1 where closed.
+        side = self._free.resolution
+        self._columns = np.rint((cells.x_lo - bounds.x_min) / side).astype(np.int32) + 1
+        self._rows = np.rint((cells.y_lo - bounds.y_min) / side).astype(np.int32) + 1
+        shape = (self._rows.max(initial=0) + 2, self._columns.max(initial=0) + 2)
+        self._numbers = np.full(shape, -1, np.int32)
+        self._numbers[self._rows, self._columns] = np.arange(len(cells))
         whole = Boxes.tiling(
             bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max, WHOLE_MAP_BOXES
         )
@@ -75,24 +80,9 @@ class Ground:
             return f'{here} is {-clearance:.4g} m inside {name}'
         return f'{here} is {clearance:.4g} m from {name}; the robot needs {self.robot.radius:g} m'
 
-    def can_turn_round(self, attitude: Attitude) -> bool:
-        """Whether there is room for a full circle at ``attitude`` or straight ahead of it.
-
-        A car that only drives forward may never get out of a place without such room.
-        """
-        if not self.robot.turning_radius:
-            return True
-        circle = tau * self.robot.turning_radius
-        for ahead in RUN_UPS:
-            straight = Segment(0.0, ahead * self.robot.turning_radius)
-            for angle in (self.robot.max_steering_angle, -self.robot.max_steering_angle):
-                segments = (
-                    (straight, Segment(angle, circle)) if ahead else (Segment(angle, circle),)
-                )
-                motion = Motion(self.robot.label, attitude, segments)
-                if self.scene.motion_is_free(motion, self.robot):
-                    return True
-        return False
+    def can_turn_round(self, states: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """At which free attitudes (n, 3) there is room to turn, shape (n,); see `turning_room`."""
+        return turning_room(self.scene, self.robot, states)
 
     def part_of(self, attitude: Attitude) -> int:
         """Number of the connected part of the free space that ``attitude`` is in; -1 for none."""
@@ -102,15 +92,46 @@ class Ground:
         """Numbers of the connected parts of the free space that attitudes (n, 3) are in, (n,)."""
         return self._free.components_of(states[:, 0], states[:, 1])
 
+    def cell_of(self, attitude: Attitude) -> int:
+        """Number of the one of ``cells`` that ``attitude`` is in; -1 for none."""
+        bounds, side = self.scene.world.bounds, self._free.resolution
+        row = floor((attitude.y - bounds.y_min) / side) + 1
+        column = floor((attitude.x - bounds.x_min) / side) + 1
+        rows, columns = self._numbers.shape
+        inside = 0 <= row < rows and 0 <= column < columns
+        return int(self._numbers[row, column]) if inside else -1
+
+    def rim_of(self, chosen: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Those of the ``chosen`` ones of ``cells`` (n,) that have a cell beside them that is not."""
+        mask = np.zeros(self._numbers.shape, np.bool_)
+        rows, columns = self._rows[chosen], self._columns[chosen]
+        mask[rows, columns] = True
+        enclosed = mask[rows - 1, columns] & mask[rows + 1, columns]
+        enclosed &= mask[rows, columns - 1] & mask[rows, columns + 1]
+        return np.asarray(chosen[~enclosed])
+
+    def ways_round(self, start: Attitude, states: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Estimated lengths [m], (n,), of the ways from ``start`` round obstacles to states (n, 3).
+
+        The turning radius is not regarded.  Infinite where no way is known.
+        """
+        field = self._free.distance_from(start.x, start.y)
+        return np.asarray(field.at(states[:, 0], states[:, 1]))
+
+    def steered(
+        self, starts: NDArray[np.float64], ends: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """Lengths [m], (n,), of the shortest motions without obstacles, as `shortest_between`."""
+        return shortest_between(starts, ends, self.robot)
+
     def estimates(self, start: Attitude, states: NDArray[np.float64]) -> NDArray[np.float64]:
         """Estimated lengths [m] of the motions from ``start`` to attitudes (n, 3), shape (n,).
 
         The larger of the shortest motion without obstacles and the way round the obstacles.
         """
-        field = self._free.distance_from(start.x, start.y)
-        around = field.at(states[:, 0], states[:, 1])
         here = np.array([start.x, start.y, start.heading])
-        return np.asarray(np.maximum(around, shortest_between(here, states, self.robot)))
+        around = self.ways_round(start, states)
+        return np.asarray(np.maximum(around, self.steered(here, states)))
 
     def area(self, part: int) -> Area:
         """Size and bounding obstacles of a connected part of the free space, biggest share first."""

@@ -10,6 +10,7 @@ from motion_planner_node.codes import Code
 from motion_planner_node.errors import Diagnostic, MotionPlannerError
 from motion_planner_node.language import Preconditions
 from motion_planner_node.parameters import MODES
+from motion_planner_node.paths.planners import planner_named
 from motion_planner_node.requests import GeometricRequest
 from motion_planner_node.robots.motion import Attitude, GeometricState
 from motion_planner_node.robots.robot import Robot
@@ -80,6 +81,8 @@ def check_request(world: World, request: GeometricRequest) -> None:
         raise MotionPlannerError(
             Code.UNSUPPORTED, f'there is no mode {request.mode!r}; there are {", ".join(MODES)}'
         )
+    if request.planner:
+        planner_named(request.planner)
     if not 0.0 <= request.time_budget < float('inf'):
         raise MotionPlannerError(
             Code.UNSUPPORTED,

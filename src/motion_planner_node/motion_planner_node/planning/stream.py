@@ -87,6 +87,8 @@ class Stream:
         self._ground = ground
         self._parameters = parameters
         self._seed = seed
+        #: The connected part of the free space that the start is in.
+        self._here = ground.part_of(problem.start)
         self._restart()
 
     def _restart(self) -> None:
@@ -181,8 +183,7 @@ class Stream:
             )
         )
         free = self._ground.is_free(states)
-        here = self._ground.part_of(self._problem.start)
-        near = self._ground.parts_of(states) == here
+        near = self._ground.parts_of(states) == self._here
         roomy = self._ground.can_turn_round(states)
         estimates = self._ground.estimates(self._problem.start, states)
         if len(states):
@@ -256,7 +257,7 @@ class Stream:
             states = states[ground.is_free(states)] if len(states) else states
             if not len(states):
                 return states
-            good = ground.parts_of(states) == ground.part_of(self._problem.start)
+            good = ground.parts_of(states) == self._here
             if not dead_end:
                 good &= ground.can_turn_round(states)
             if self._found:
