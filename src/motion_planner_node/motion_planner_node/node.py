@@ -18,10 +18,12 @@ from motion_planner_node import conversions
 from motion_planner_node.errors import MotionPlannerError, guarded
 from motion_planner_node.executor_node import AtMost, RelayExecutor
 from motion_planner_node.functions import PluginError, load_plugins
+from motion_planner_node.motion_conversions import motion_from_msg, path_to_msg
 from motion_planner_node.parameters import ParameterError, Parameters
 from motion_planner_node.planner import warm_up
 from motion_planner_node.planning.answers import as_cancelled, refused
 from motion_planner_node.planning.check import check_text
+from motion_planner_node.planning.sampled import sampled
 from motion_planner_node.requests import AdviceAnswer, GeometricAnswer
 from motion_planner_node.settings_node import Settings
 from motion_planner_node.signals import interrupt_on_signals
@@ -56,7 +58,7 @@ class MotionPlannerNode(Node):
         ``planning_events`` (geohtn_msgs/PlanningEvent): each exchange, in the order answered
     Services
         ``satisfy_preconditions``, ``advise``, ``cancel_request``, ``check_preconditions``,
-        ``set_world``, ``get_world``
+        ``sample_motion``, ``set_world``, ``get_world``
 
     Requests are worked on one at a time, in the order in which they come: solving takes all that a
     core has, so two at a time would only both be slower.  Who needs more at once starts replicas of
@@ -92,6 +94,7 @@ class MotionPlannerNode(Node):
             (srv.Advise, 'advise', self._advise, requests),
             (srv.CancelRequest, 'cancel_request', self._cancel, MutuallyExclusiveCallbackGroup()),
             (srv.CheckPreconditions, 'check_preconditions', self._check, quick),
+            (srv.SampleMotion, 'sample_motion', self._sample, quick),
         ):
             self.create_service(kind, name, answer, qos_profile=unread, callback_group=group)
         self._worlds.serve(self, MutuallyExclusiveCallbackGroup(), quick)
@@ -187,6 +190,21 @@ class MotionPlannerNode(Node):
         except MotionPlannerError as error:
             diagnostics = diagnostics_of(error, request.source)
         response.diagnostics = conversions.diagnostics_to_msg(diagnostics)
+        return response
+
+    def _sample(
+        self, request: srv.SampleMotion.Request, response: srv.SampleMotion.Response
+    ) -> srv.SampleMotion.Response:
+        try:
+            world = self._worlds.current().world
+            motion = motion_from_msg(request.motion)
+            rows = guarded(
+                lambda: sampled(world, motion, request.world_revision, request.spacing),
+                self.get_logger().error,
+            )
+            response.path = path_to_msg(rows)
+        except MotionPlannerError as error:
+            response.code, response.message = int(error.code), error.message
         return response
 
     def _budget(self, wanted: float) -> float:

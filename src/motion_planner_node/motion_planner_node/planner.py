@@ -52,7 +52,7 @@ class MotionPlanner:
         self.world = world
         self._parameters = parameters or Parameters()
         self._scene = Scene(world)
-        self._grounds: Cache[Robot, Ground] = Cache(MOST_GROUNDS)
+        self._grounds: Cache[Robot, Ground] = Cache(MOST_GROUNDS, self._forget)
         size = self._parameters.cache_size
         self._texts: Cache[str, Preconditions] = Cache(size)
         self._remarks: Cache[str, tuple[Diagnostic, ...]] = Cache(size)
@@ -136,6 +136,11 @@ class MotionPlanner:
     def _parsed(self, text: str) -> Preconditions:
         return self._texts.get(text, lambda: parse(text))
 
+    def _forget(self, _ground: Ground) -> None:
+        """Drop what was worked out on some ground, so that no forgotten one is kept by it."""
+        self._streams.clear()
+        self._advisor.forget()
+
     def _ground(self, robot: Robot) -> Ground:
         return self._grounds.get(robot, lambda: Ground(self._scene, robot))
 
@@ -154,6 +159,6 @@ def warm_up() -> None:
     planner = MotionPlanner(World('', '', bounds, {'goal': goal}, (wall, tree), {agent: car}))
     text = '((agent robot)(object goal)(distance(robot, goal) <= 5))'
     planner.satisfy(GeometricRequest(text, {agent: here}))
-    planner.advise(AdviceRequest((text,), {agent: here}))
+    planner.advise(AdviceRequest((text,), {agent: here}, pairwise=True))
     seen = f'{text[:-1]}(visible(robot, goal))(clearance(robot) >= 2))'
     planner.satisfy(GeometricRequest(seen, {agent: here}))

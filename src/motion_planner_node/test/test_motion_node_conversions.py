@@ -165,7 +165,7 @@ def node() -> Iterator[MotionPlannerNode]:
 def test_a_fault_inside_a_request_is_answered_and_outlived(
     node: MotionPlannerNode, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    accepted = node._set_world(srv.SetWorld.Request(yaml=WORLD), srv.SetWorld.Response())
+    accepted = node._worlds._set_world(srv.SetWorld.Request(yaml=WORLD), srv.SetWorld.Response())
     assert accepted.accepted
 
     def broken(*_: object) -> None:

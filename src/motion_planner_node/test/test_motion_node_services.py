@@ -109,6 +109,20 @@ def test_a_request_is_answered_and_published(rover: Asker) -> None:
     )
 
 
+def test_a_motion_is_told_as_poses(rover: Asker) -> None:
+    motion = rover.satisfy(PHOTO.format('location1')).motion
+    response = rover.call(srv.SampleMotion, '/sample_motion', motion=motion, spacing=2.0)
+    assert response.code == msg.GeometricAnswer.NONE
+    poses = response.path.poses
+    assert len(poses) > motion.length / 2.0
+    assert poses[0].pose.position.x == START.x
+    assert poses[-1].header.stamp.sec == int(motion.duration)
+    motion.agent = 'ghost'
+    refused = rover.call(srv.SampleMotion, '/sample_motion', motion=motion, spacing=2.0)
+    assert refused.code == msg.GeometricAnswer.UNKNOWN_AGENT
+    assert 'ghost' in refused.message
+
+
 @pytest.mark.parametrize(
     ('preconditions', 'fields', 'code'),
     [
