@@ -116,6 +116,9 @@ def shortened(frame: Frame, path: Rows, points: int, reach: float, draws: Rows) 
     length = float(edge_lengths(frame, path).sum())
     for moves in draws:
         spacing = length / points
+        if spacing == 0.0:
+            # A turn on the spot, or no motion at all.
+            break
         phase = spacing * 0.5 * (1.0 + float(moves[0, 0]))
         rows = densified(frame, path, spacing, phase)
         candidate = best_subsequence(frame, rows)
