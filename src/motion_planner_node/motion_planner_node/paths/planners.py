@@ -7,10 +7,12 @@ from typing import NamedTuple
 
 from motion_planner_node.codes import Code
 from motion_planner_node.errors import MotionPlannerError
+from motion_planner_node.paths.cell_rrt import cell_rrt
 from motion_planner_node.paths.edges import Rows
 from motion_planner_node.paths.portfolio import default
 from motion_planner_node.paths.query import Query
-from motion_planner_node.paths.sampling import bit_star, prm_star, rrt_connect, rrt_star
+from motion_planner_node.paths.roadmap import prm_star
+from motion_planner_node.paths.sampling import bit_star, rrt_connect, rrt_star
 from motion_planner_node.paths.shots import direct
 
 DEFAULT_PLANNER = 'default'
@@ -34,6 +36,7 @@ PLANNERS = {
     'rrt_star': Planner(rrt_star),
     'bit_star': Planner(bit_star),
     'prm_star': Planner(prm_star),
+    'cell_rrt': Planner(cell_rrt),
 }
 
 

@@ -74,12 +74,3 @@ def bit_star(query: Query) -> Rows | None:
     J. D. Gammell, S. S. Srinivasa and T. D. Barfoot, "Batch informed trees (BIT*)", ICRA 2015.
     """
     return _sampled(query, geometric.BITstar, query.budget.iterations)
-
-
-def prm_star(query: Query) -> Rows | None:
-    """A roadmap whose edges are checked when a path wants them (Karaman and Frazzoli, as above).
-
-    K. Hauser, "Lazy collision checking in asymptotically-optimal motion planning", ICRA 2015.
-    OMPL's other PRM* looks for paths in a second thread by the clock: never twice the same.
-    """
-    return _sampled(query, geometric.LazyPRMstar, query.budget.iterations)
