@@ -146,6 +146,42 @@ def test_reader_and_schema_refuse_the_same_regions(old: str, new: str) -> None:
     assert not agree(ROVER + DOCK.replace(old, new, 1))
 
 
+@pytest.mark.parametrize(
+    'text',
+    [
+        'objects: {}',
+        'map:',
+        'bounds: [0, 0, 1, 1]\nmap:',
+        'map: [a.yaml]',
+        'map: {unknown: free}',
+        'map: {file: a.yaml, unknown: maybe}',
+        'map: {file: a.yaml, known: free}',
+        'bounds: [0, 0, 1, 1]\nobstacles: [{geojson: a, name: b}]',
+        'bounds: [0, 0, 1, 1]\nobstacles: [{geojson: 7}, {geojson: []}]',
+        'bounds: [0, 0, 1, 1]\nregions: [{geojson: a, name: b}]',
+        'bounds: [0, 0, 1, 1]\nregions: [{geojson: a, circle: {center: [1, 2], radius: 3}}]',
+    ],
+)
+def test_reader_and_schema_refuse_the_same_files(text: str) -> None:
+    assert not agree(text)
+
+
+def test_reader_and_schema_accept_files(tmp_path: Path) -> None:
+    square = [[0, 0], [1, 0], [1, 1], [0, 0]]
+    polygon = {'type': 'Polygon', 'coordinates': [square]}
+    feature = {'type': 'Feature', 'properties': {'name': 'dock'}, 'geometry': polygon}
+    (tmp_path / 'a.geojson').write_text(json.dumps(feature))
+    (tmp_path / 'a.yaml').write_text('image: a.pgm\nresolution: 1\norigin: [0, 0, 0]\n')
+    (tmp_path / 'a.pgm').write_bytes(b'P5 1 1 255\n\xff')
+    for text in (
+        'map: a.yaml',
+        'map: {file: a.yaml, unknown: free}\nbounds: [0, 0, 2, 2]',
+        'map: a.yaml\nobstacles: [{geojson: a.geojson}]\nregions: [{geojson: a.geojson}]',
+    ):
+        assert accepts(SCHEMA, yaml.safe_load(text))
+        assert read_world(text, str(tmp_path / 'world.yaml')).map
+
+
 def test_reader_and_schema_accept_the_same() -> None:
     assert agree('bounds: [0, 0, 1, 1]')
     assert agree('bounds: [0, 0, 1, 1]\nobjects:\nobstacles:\nrobots:\nregions:\n')

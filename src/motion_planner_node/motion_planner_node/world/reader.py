@@ -45,13 +45,15 @@ class _WorldReader:
             self._faults,
         )
         given = {key: node for key, node in parts.items() if not is_nothing(node)}
+        for key in ('bounds', 'map'):
+            if key in parts and key not in given:
+                verb = 'are' if key == 'bounds' else 'is'
+                self._faults.add(f'{key} {verb} empty', parts[key].place)
         grid = self._map(root, given, grid)
         bounds = self._bounds(given['bounds'], grid) if 'bounds' in given else None
-        if 'bounds' in parts and 'bounds' not in given:
-            self._faults.add('bounds are empty', parts['bounds'].place)
-        elif bounds is None and grid is not None:
+        if grid is not None and 'bounds' not in given:
             bounds = grid.bounds
-        elif isinstance(root, Mapping) and 'bounds' not in given and 'map' not in given:
+        elif isinstance(root, Mapping) and 'bounds' not in parts and 'map' not in parts:
             self._faults.add('the world lacks bounds', root.place)
         objects = self._objects(given['objects'], bounds) if 'objects' in given else {}
         obstacles = (
