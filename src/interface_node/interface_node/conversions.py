@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Iterable, Mapping
+from math import atan2
 
+import numpy as np
 from geohtn_msgs import msg
+from nav_msgs.msg import OccupancyGrid
 
 from interface_node.plan import (
     Attitude,
     Diagnostic,
     Obstacle,
+    Occupancy,
     Plan,
     Residual,
     Robot,
@@ -61,15 +66,9 @@ def world_from_message(world: msg.World) -> World:
         revision=world.revision,
         bounds=(world.x_min, world.y_min, world.x_max, world.y_max),
         objects=objects,
-        obstacles=tuple(
-            Obstacle(
-                obstacle.name,
-                tuple((corner.x, corner.y) for corner in obstacle.polygon),
-                (obstacle.center.x, obstacle.center.y),
-                obstacle.radius,
-            )
-            for obstacle in world.obstacles
-        ),
+        obstacles=tuple(_outline(obstacle) for obstacle in world.obstacles),
+        regions=tuple(_outline(region) for region in world.regions),
+        map=_map(world.map[0]) if world.map else None,
         robots=tuple(
             Robot(
                 robot.label,
@@ -85,6 +84,26 @@ def world_from_message(world: msg.World) -> World:
             )
             for robot in world.robots
         ),
+    )
+
+
+def _outline(shape: msg.Obstacle | msg.Region) -> Obstacle:
+    return Obstacle(
+        shape.name,
+        tuple((corner.x, corner.y) for corner in shape.polygon),
+        (shape.center.x, shape.center.y),
+        shape.radius,
+    )
+
+
+def _map(grid: OccupancyGrid) -> Occupancy:
+    origin, info = grid.info.origin, grid.info
+    cells = np.frombuffer(array('b', grid.data), np.int8).reshape(info.height, info.width)
+    return Occupancy(
+        float(info.resolution),
+        (origin.position.x, origin.position.y),
+        cells != 0,
+        2.0 * atan2(origin.orientation.z, origin.orientation.w),
     )
 
 

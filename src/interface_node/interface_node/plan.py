@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+import numpy as np
+from numpy.typing import NDArray
+
 
 @dataclass(frozen=True, slots=True)
 class Attitude:
@@ -77,12 +80,29 @@ class Robot:
 
 @dataclass(frozen=True, slots=True)
 class Obstacle:
-    """A polygon by its corners [m], or a disc by its centre and radius [m] when it has none."""
+    """A polygon by its corners [m], or a disc by its centre and radius [m] when it has none.
+
+    Regions, which robots may enter, are told in the same way.
+    """
 
     name: str
     corners: tuple[tuple[float, float], ...] = ()
     center: tuple[float, float] = (0.0, 0.0)
     radius: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Occupancy:
+    """Cells of side ``resolution`` [m], row by row from the corner ``origin`` (x, y) [m].
+
+    ``occupied`` has the shape (rows, columns); rows go north, but for a turn by ``yaw`` [rad]
+    about the corner.
+    """
+
+    resolution: float
+    origin: tuple[float, float]
+    occupied: NDArray[np.bool_]
+    yaw: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,6 +115,8 @@ class World:
     objects: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     obstacles: tuple[Obstacle, ...] = ()
     robots: tuple[Robot, ...] = ()
+    regions: tuple[Obstacle, ...] = ()
+    map: Occupancy | None = None
 
     def robot(self, label: str) -> Robot | None:
         """The robot of that label, or nothing."""
