@@ -98,6 +98,18 @@ def test_a_mission_is_driven_without_a_fault(model: str, shape: str) -> None:
         state, before = dict(answer.end), answer.end['r']
 
 
+@pytest.mark.parametrize('model', ['differential', 'omnidirectional'])
+def test_a_robot_that_only_has_to_turn_turns_on_the_spot(model: str) -> None:
+    yard = Yard(robot_line('r', model, 'box'))
+    here = '(r.x = 10)(r.y = 10)'
+    answer = yard.planner.satisfy(
+        GeometricRequest(f'((agent r){here}(r.heading = -2))', {'r': START})
+    )
+    assert yard.faults(answer) == []
+    assert answer.length <= 1e-6
+    assert answer.duration == pytest.approx(3.0, abs=1e-5)
+
+
 def test_robots_of_different_models_move_in_one_world_as_each_does_alone() -> None:
     fleet = {'a': ('car', 'disc'), 'b': ('differential', 'box'), 'c': ('omnidirectional', 'arrow')}
     together = Yard(*(robot_line(label, *kind) for label, kind in fleet.items()))
