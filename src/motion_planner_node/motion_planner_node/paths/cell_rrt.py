@@ -88,7 +88,7 @@ class _Tree:
         self, query: Query, cells: Decomposition, corridor: NDArray[np.bool_], step: float
     ) -> None:
         self._query, self._cells, self._corridor = query, cells, corridor
-        self._moves = moves_of(query.robot, step, pi / 8.0)[0]
+        self._moves = moves_of(query.robot, step, pi / 8.0, (1.0,))
         self._near = 4.0 * query.reach
         #: Cells that the tree has got to.
         self.reached: set[Cell] = set()

@@ -34,8 +34,8 @@ from motion_planner_node.robots.robot import Robot
 CHUNK = 250
 #: Attitudes that are expanded from one end before it is the other's turn; then twice as many.
 FIRST_TURN = 500
-#: A longer move for each that drives straight, so that open space is crossed in few steps.
-LEAP = 4.0
+#: Straight moves are tried longer as well, so that open space is crossed in few steps.
+LEAPS = (1.0, 4.0)
 #: What a turn on the spot costs per radian, in steps, as it adds no length.
 TURN_PRICE = 0.02
 #: Length of a step of robots that turn on the spot, in cells of the travel field or radii.
@@ -62,26 +62,28 @@ class Level(NamedTuple):
 LEVELS = (Level(0.4, 0.35, 24, 1.1, 1), Level(0.2, 0.15, 48, 1.2, 4))
 
 
-def moves_of(robot: Robot, step: float, turn: float) -> tuple[Rows, Row]:
-    """What the robot can do in one step of ``step`` [m] or ``turn`` [rad]: pieces (m, 4), prices."""
+def moves_of(robot: Robot, step: float, turn: float, leaps: tuple[float, ...]) -> Rows:
+    """What the robot can do in one step of ``step`` [m] or ``turn`` [rad]: pieces (m, 4).
+
+    Straight ones are longer by each of the factors ``leaps``.
+    """
     model = MODELS[robot.kind]
     rows: list[tuple[float, float, float, float]] = []
     for way in (step, -step) if model.reverses else (step,):
         if model.steers:
             bend = 1.0 / robot.turning_radius
             rows += [(bend, way, 0.0, 0.0), (-bend, way, 0.0, 0.0)]
-        rows += [(0.0, way, 0.0, 0.0), (0.0, LEAP * way, 0.0, 0.0)]
+        rows += [(0.0, leap * way, 0.0, 0.0) for leap in leaps]
     if model.slides:
         rows += [
             (0.0, leap * step, direction * pi / 4.0, 0.0)
             for direction in range(-3, 5)
-            for leap in (1.0, LEAP)
+            for leap in leaps
             if direction
         ]
     if model.turns:
         rows += [(0.0, 0.0, 0.0, turn), (0.0, 0.0, 0.0, -turn)]
-    moves = np.array(rows, np.float64)
-    return moves, np.abs(moves[:, 1]) + TURN_PRICE * step * np.abs(moves[:, 3])
+    return np.array(rows, np.float64)
 
 
 class _End:
@@ -96,7 +98,9 @@ class _End:
         unit = robot.turning_radius or STEP * max(self.field.cell, robot.radius)
         corner = query.scene.shapes.bounds[:2]
         self._grain = Grain(corner, level.cell * unit, level.headings, level.weight)
-        moves, prices = moves_of(robot, level.turn * unit, 2.0 * pi / level.headings)
+        step = level.turn * unit
+        moves = moves_of(robot, step, 2.0 * pi / level.headings, LEAPS)
+        prices = np.abs(moves[:, 1]) + TURN_PRICE * step * np.abs(moves[:, 3])
         self._task = Task(target, sign, moves, prices)
         most = level.effort * query.budget.attitudes + len(roots)
         self.lattice: Lattice = new_lattice(most, longest, query.budget.improving)
