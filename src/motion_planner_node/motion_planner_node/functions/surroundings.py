@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motion_planner_node.functions.field import Field
+from motion_planner_node.world.hiding import least_obstructions
 from motion_planner_node.world.model import Region, World
 from motion_planner_node.world.shapes import Same, Shapes, shapes_of, shapes_of_region
-from motion_planner_node.world.sight import least_obstructions, obstructions
+from motion_planner_node.world.sight import obstructions
 from motion_planner_node.world.signed_distance import clearances_with_slopes
 
 _Array = NDArray[np.float64]

@@ -91,7 +91,7 @@ def _depth_in_outlines(shapes: Shapes, row: int, x: float, y: float) -> tuple[fl
 
 
 @kernel
-def _inside_a_cell(shapes: Shapes, x: float, y: float) -> bool:
+def inside_a_cell(shapes: Shapes, x: float, y: float) -> bool:
     """Whether (x, y) is in an occupied cell of the occupancy map."""
     occupied, cells = shapes.occupied, shapes.cells
     rows, columns = occupied.shape
@@ -106,7 +106,7 @@ def _inside_a_cell(shapes: Shapes, x: float, y: float) -> bool:
 
 
 @kernel
-def _nearest_item(
+def nearest_item(
     shapes: Shapes, x: float, y: float, lowest: int, nearest: float
 ) -> tuple[float, int]:
     """Distance [m] to and number of the nearest item from number ``lowest`` on.
@@ -181,12 +181,12 @@ def clearance_within(shapes: Shapes, x: float, y: float, reach: float) -> tuple[
             else _depth_in_outlines(shapes, row, x, y)
         )
         if polygon >= 0:
-            depth, item = _nearest_item(shapes, x, y, len(shapes.edges), depth)
+            depth, item = nearest_item(shapes, x, y, len(shapes.edges), depth)
             return depth, polygon if item < 0 else _obstacle_of(shapes, item)
-    if _inside_a_cell(shapes, x, y):
-        depth, _ = _nearest_item(shapes, x, y, int(shapes.first_edge[-1]), inf)
+    if inside_a_cell(shapes, x, y):
+        depth, _ = nearest_item(shapes, x, y, int(shapes.first_edge[-1]), inf)
         return -depth, len(shapes.boxes)
-    nearest, item = _nearest_item(shapes, x, y, 0, nearest)
+    nearest, item = nearest_item(shapes, x, y, 0, nearest)
     return nearest, _obstacle_of(shapes, item)
 
 
