@@ -63,6 +63,22 @@ def test_bounds_are_symmetric_and_below_estimates() -> None:
     assert BOUNDS[0, 4] > 400.0
 
 
+@settings(max_examples=20, deadline=None)
+@given(st.floats(5.0, 40.0), st.floats(60.0, 300.0), st.floats(0.0, 60.0))
+def test_nothing_separates_a_candidate_from_one_that_holds_it(
+    near: float, far: float, least: float
+) -> None:
+    place = '((agent rover0)(object location4)'
+    texts = (
+        f'{place}(distance(rover0, location4) <= {near}))',
+        f'{place}(distance(rover0, location4) <= {far}))',
+        f'{place}(distance(rover0, location4) >= {least})(distance(rover0, location4) <= {far}))',
+    )
+    bounds, _ = matrices(PLANNER.advise(AdviceRequest(texts, START, pairwise=True)))
+    assert bounds[0, 1] == bounds[1, 0] == bounds[1, 2] == bounds[2, 1] == 0.0
+    assert bounds[0, 2] <= max(least - near, 0.0)
+
+
 def test_pairwise_costs_do_not_depend_on_what_was_asked_before_nor_on_the_start() -> None:
     request = AdviceRequest(TEXTS, {'rover0': Attitude(700.0, 560.0, 1.0)}, pairwise=True)
     again = PLANNER.advise(request)

@@ -67,18 +67,24 @@ def matrices(
 def lower_bounds(reaches: Sequence[Reach], should_stop: ShouldStop) -> Matrix:
     """Lengths [m], (n, n), that no motion from a destination of one to one of another is below.
 
-    The straight distances between boxes that cover the destinations; 0 from a candidate to itself.
+    The straight distances between boxes that cover the rims of the destinations; 0 where two
+    candidates have a place in common, and from a candidate to itself.
 
     :raises Stopped: when ``should_stop`` said so
     """
     covers = [_cover(reach.rim) for reach in reaches]
     boxes = np.concatenate(covers)
     ends = np.cumsum([len(cover) for cover in covers])
+    cells = np.stack([reach.cells for reach in reaches])
     result = np.zeros((len(reaches), len(reaches)))
-    for one in range(len(reaches)):
+    # What has a cell in common has an outermost cell of one in common: rims of sets that are inside
+    # of others can be far apart.
+    shared = np.zeros((len(reaches), len(reaches)), np.bool_)
+    for one, reach in enumerate(reaches):
         go_on(should_stop)
         _distances(boxes, ends, one, result[one])
-    result = np.maximum(result, result.T)
+        _find_shared(cells, reach.outermost, shared[one])
+    result = np.where(shared | shared.T, 0.0, np.maximum(result, result.T))
     return np.maximum(0.0, result * (1.0 - 1e-12) - SLACK)
 
 
@@ -139,3 +145,15 @@ def _distances(boxes: Matrix, ends: NDArray[np.int64], one: int, row: NDArray[np
                 dy = max(boxes[i, 1] - boxes[j, 3], boxes[j, 1] - boxes[i, 3], 0.0)
                 nearest = min(nearest, dx * dx + dy * dy)
         row[other] = np.sqrt(nearest)
+
+
+@kernel
+def _find_shared(
+    cells: NDArray[np.uint8], outermost: NDArray[np.intp], row: NDArray[np.bool_]
+) -> None:
+    """Mark in ``row`` (n,) which of the sets ``cells`` (n, bytes) hold any of the cells (k,)."""
+    for other in range(len(row)):
+        for cell in outermost:
+            if cells[other, cell >> 3] >> (7 - (cell & 7)) & 1:
+                row[other] = True
+                break

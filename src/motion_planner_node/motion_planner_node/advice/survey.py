@@ -30,13 +30,15 @@ class Reach:
 
     Attributes:
         cells: numbers of the ground's cells that may hold a destination, packed as bits
-        rim: (n, 4) x_lo, y_lo, x_hi, y_hi [m] of those of them that have others beside them; from
-            anywhere outside of the cells one of these is the nearest
+        outermost: numbers (n,) of those of them that have others beside them
+        rim: (n, 4) x_lo, y_lo, x_hi, y_hi [m] of the outermost cells; from anywhere outside of the
+            cells one of these is the nearest
         states: (k, 3) attitudes, at least one, near which a motion may end
         proof: why nothing can be driven to, if so
     """
 
     cells: NDArray[np.uint8]
+    outermost: NDArray[np.intp]
     rim: NDArray[np.float64]
     states: NDArray[np.float64]
     proof: Impossible | None
@@ -92,14 +94,15 @@ class Survey:
         hopeful = np.flatnonzero(np.unpackbits(self._cells, count=count))
         proof = walled_off(self.problem.starting_at(start), ground, hopeful)
         chosen = hopeful[ground.parts[hopeful] == here]
-        boxes = ground.cells.boxes.chosen(ground.rim_of(chosen))
+        outermost = ground.rim_of(chosen)
+        boxes = ground.cells.boxes.chosen(outermost)
         rim = np.column_stack([boxes.x_lo, boxes.y_lo, boxes.x_hi, boxes.y_hi])
         states = self._destinations[ground.parts_of(self._destinations) == here]
         if not len(states):
             x, y = boxes.centres
             states = np.column_stack([x, y, np.zeros(len(x))])
         even = spread(len(states), MOST_STATES)
-        return Reach(_packed(ground, chosen), rim, states[even], proof)
+        return Reach(_packed(ground, chosen), outermost, rim, states[even], proof)
 
 
 def spread(count: int, most: int) -> NDArray[np.int64]:
