@@ -25,11 +25,12 @@ from motion_planner_node.language.syntax import (
 )
 from motion_planner_node.language.tape import Tape
 from motion_planner_node.requests import Residual
+from motion_planner_node.robots.arcs import wrap_angle
 from motion_planner_node.robots.motion import Attitude, GeometricState
 from motion_planner_node.satisfaction.cells import Cells, possible_positions
 from motion_planner_node.satisfaction.conflicts import contradiction
 from motion_planner_node.satisfaction.recording import Table, record
-from motion_planner_node.satisfaction.row import Row, wrap_angle
+from motion_planner_node.satisfaction.row import Row
 from motion_planner_node.world.model import Bounds, World
 
 #: Violation up to which a constraint counts as met by a destination, in the constraint's unit, for

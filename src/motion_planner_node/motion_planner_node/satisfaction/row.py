@@ -9,6 +9,8 @@ import numpy as np
 
 from motion_planner_node.functions import Array, Dual, Interval
 from motion_planner_node.language.syntax import Constraint
+from motion_planner_node.robots.arcs import wrap_angle
+from motion_planner_node.robots.kernel import kernel
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,11 +62,13 @@ class Row:
 
 
 def wrap(angles: Array) -> Array:
-    """The same angles [rad] in (-pi, pi]."""
-    result = angles - 2.0 * pi * np.round(angles / (2.0 * pi))
-    return np.where(result <= -pi, pi, np.minimum(result, pi))
+    """The same angles [rad] in (-pi, pi], each as ``wrap_angle`` has it."""
+    result = np.array(angles, dtype=np.float64)
+    _wrap_each(result.reshape(-1))
+    return result
 
 
-def wrap_angle(angle: float) -> float:
-    """The same angle [rad] in (-pi, pi]."""
-    return float(wrap(np.array(angle)))
+@kernel
+def _wrap_each(angles: Array) -> None:
+    for index in range(len(angles)):
+        angles[index] = wrap_angle(angles[index])
