@@ -31,6 +31,8 @@ from experiments.constraints.sets import AGENT, WORLD, ConstraintSet, read_map
 PATIENCE = 120.0
 #: [s] after which a request is sent again: discovery can lose the first response.
 LOST = 3.0
+#: [s] for all exchanges together, and for the node to end when it is asked to.
+DEADLINE, GOODBYE = 300.0, 20.0
 #: Exchanges before the measurement begins.
 WARM_UP = 30
 
@@ -88,7 +90,11 @@ def motion_planner(namespace: str) -> Iterator[None]:
         yield
     finally:
         process.send_signal(signal.SIGINT)
-        process.wait()
+        try:
+            process.wait(GOODBYE)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
 
 
 @contextmanager
@@ -106,11 +112,14 @@ def client(namespace: str) -> Iterator[Callable[[Any, Any], Any]]:
         clients = {kind: node.create_client(kind, name) for kind, name in names.items()}
         if not all(each.wait_for_service(PATIENCE) for each in clients.values()):
             raise SystemExit('the motion planner did not start')
+        end = perf_counter() + DEADLINE
 
         def exchange(kind: Any, request: Any) -> Any:
             future, sent = clients[kind].call_async(request), perf_counter()
             while not future.done():
                 executor.spin_once(1.0)
+                if perf_counter() > end:
+                    raise SystemExit(f'the exchanges took more than {DEADLINE:.0f} s')
                 if perf_counter() - sent > LOST:
                     future, sent = clients[kind].call_async(request), perf_counter()
             return future.result()

@@ -28,5 +28,9 @@ class Cache(Generic[Key, Value]):
             self._values.popitem(last=False)
         return value
 
+    def known(self, key: Key) -> Value | None:
+        """The value of ``key``; None when it is not here."""
+        return self._values.get(key)
+
     def __len__(self) -> int:
         return len(self._values)

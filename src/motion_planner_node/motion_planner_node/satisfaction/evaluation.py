@@ -205,3 +205,16 @@ def violation(conditions: Array, row: int, difference: float) -> float:
     if difference < 0.0:
         return 0.0
     return max(difference, 5e-324) if conditions[row, STRICT] else difference
+
+
+@kernel
+def violations_at(table: Table, conditions: Array, states: Array) -> Array:
+    """By how much ``states`` (n, 3) miss each of the m constraints: (n, m), 0 where it holds."""
+    is_truncated = False
+    values, gradients = workspace(table)
+    result = np.empty((len(states), len(conditions)))
+    for lane in range(len(states)):
+        evaluate(table, states[lane], 0, is_truncated, values, gradients)
+        for row in range(len(conditions)):
+            result[lane, row] = violation(conditions, row, difference(table, row, values))
+    return result

@@ -29,6 +29,7 @@ from motion_planner_node.robots.arcs import wrap_angle
 from motion_planner_node.robots.motion import Attitude, GeometricState
 from motion_planner_node.satisfaction.cells import Cells, possible_positions
 from motion_planner_node.satisfaction.conflicts import contradiction
+from motion_planner_node.satisfaction.evaluation import violations_at
 from motion_planner_node.satisfaction.recording import Table, record
 from motion_planner_node.satisfaction.row import Row
 from motion_planner_node.world.model import Bounds, World
@@ -37,6 +38,7 @@ from motion_planner_node.world.model import Bounds, World
 #: coordinates of ordinary size. Strict comparators have none.
 TOLERANCE = 1e-9
 
+_EPSILON = float(np.finfo(np.float64).eps)
 _NEVER_ZERO = float(np.nextafter(0.0, 1.0))
 
 
@@ -70,15 +72,35 @@ class Program:
         self._preconditions = preconditions
         self._world = world
         self._fields = {label: world.objects[label].fields for label in self.objects}
-        self.start = self.apply_commands(start)
+        self.start, self.tolerance = self._begun(start)
         places = self._fields | _components(self.start, self.agents)
         self._tape = Tape(agent, places, surroundings_of(world))
         self.rows = tuple(self._row(item) for item in preconditions.constraints)
         self.constraints = tuple(row.text for row in self.rows)
+
+    def _begun(self, start: GeometricState) -> tuple[dict[str, Attitude], float]:
+        """The state after the commands, and the tolerance with which that can be computed."""
+        state = self.apply_commands(start)
+        places = self._fields | _components(state, self.agents)
         largest = max(
             (abs(value) for fields in places.values() for value in fields.values()), default=0.0
         )
-        self.tolerance = TOLERANCE + 16.0 * float(np.finfo(np.float64).eps) * largest
+        return dict(state), TOLERANCE + 16.0 * _EPSILON * largest
+
+    def starting_at(self, start: GeometricState) -> Program | None:
+        """The same program from another attitude of the agent that moves.
+
+        None where that is another program: there are commands, or other agents stand elsewhere.
+        """
+        others = (label for label in self.agents if label != self.agent)
+        is_same = all(start.get(label) == self.start[label] for label in others)
+        if self.assigns or self.agent not in start or not is_same:
+            return None
+        _ = self.table  # which both programs share
+        result = copy(self)
+        vars(result).pop('conditions', None)
+        result.start, result.tolerance = self._begun(start)
+        return result
 
     def apply_commands(self, state: GeometricState) -> GeometricState:
         """The state after the commands, in their order; what they do not set stays as it is.
@@ -202,6 +224,8 @@ class Program:
 
         An undefined angle is off by pi, any other undefined number by infinity.
         """
+        if self.table is not None:
+            return violations_at(self.table, self.conditions, np.ascontiguousarray(states))
         result = np.empty((len(states), len(self.rows)))
         for index, (row, function) in enumerate(
             zip(self.rows, self.functions(states), strict=True)
