@@ -1,10 +1,14 @@
-"""How fast one destination is found, alone and in batches, beside the peers on the same starts."""
+"""How fast one destination is found, alone and in batches, beside the peers on the same starts.
+
+Times are what the computing thread spends on its processor: a batch takes long enough to be
+interrupted where the machine has other work, a single start of a peer does not.
+"""
 
 from __future__ import annotations
 
 import statistics
 from collections.abc import Callable, Sequence
-from time import perf_counter
+from time import thread_time
 from typing import Any
 
 import numpy as np
@@ -40,18 +44,18 @@ def compare(bench: Bench, constraints: ConstraintSet, starts: Array, seed: int) 
 
     def solve_batches() -> None:
         for batch in batches * REPETITIONS:
-            began = perf_counter()
+            began = thread_time()
             descend(program, batch)
-            times[len(batch)].append(perf_counter() - began)
+            times[len(batch)].append(thread_time() - began)
 
     methods: dict[str, Any] = {
         OURS: _alone(lambda start: descend(program, start[None]).states[0], starts, succeeds)
     }
     solve_batches()
     for name, make in PEERS.items():
-        began = perf_counter()
+        began = thread_time()
         solve = make(rows)
-        built = perf_counter() - began
+        built = thread_time() - began
         methods[name] = {'build_ms': 1e3 * built, **_alone(solve, starts, succeeds)}
         solve_batches()
     figures = {}
@@ -69,13 +73,13 @@ def _alone(
     solve: Callable[[Array], Array], starts: Array, succeeds: Callable[[Array], bool]
 ) -> dict[str, float]:
     times, successes = [], 0
-    began = perf_counter()
+    began = thread_time()
     solve(starts[0])
-    first = perf_counter() - began
+    first = thread_time() - began
     for start in starts:
-        began = perf_counter()
+        began = thread_time()
         state = solve(start)
-        times.append(perf_counter() - began)
+        times.append(thread_time() - began)
         successes += succeeds(state)
     return {
         'first_us': 1e6 * first,
@@ -85,7 +89,10 @@ def _alone(
 
 
 def _ratios(methods: dict[str, Any], batches: dict[int, Any]) -> dict[str, Any]:
-    """How often our time fits into the best peer's; the best is the fastest per destination."""
+    """How often our time fits into the best peer's; the best is the fastest per destination.
+
+    Of the batches the slower size counts.
+    """
 
     def per_destination(name: str) -> float:
         figures = methods[name]
