@@ -1,7 +1,7 @@
 """An independent judge of plans: shapely and the textbook, none of the planner's own geometry.
 
 It reads ``plan.json`` and the world file as a stranger's program would, drives every segment by the
-car's equations of motion, and says in sentences what is wrong.
+robots' equations of motion, and says in sentences what is wrong.
 """
 
 from __future__ import annotations
@@ -14,15 +14,10 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from shapely import LineString, Point, Polygon, box
+from shapely import box
 from shapely.geometry.base import BaseGeometry
 
-#: [m], [rad] allowed between two numbers that should be equal.
-TOLERANCE = 1e-6
-#: [m] between two samples of a driven arc.
-SPACING = 0.05
-
-Pose = tuple[float, float, float]
+from support.vehicle import TOLERANCE, Pose, Vehicle, gap, motion_faults, outline_of
 
 
 class Judge:
@@ -33,18 +28,22 @@ class Judge:
         world = yaml.safe_load(world_file.read_text(encoding='utf-8'))
         self.objects: dict[str, dict[str, float]] = world['objects']
         self.bounds: BaseGeometry = box(*world['bounds'])
-        self.obstacles = {entry['name']: _shape(entry) for entry in world['obstacles']}
-        self.car: dict[str, float] = next(iter(world['robots'].values()))
-        self.turning_radius = self.car['wheelbase'] / math.tan(self.car['max_steering_angle'])
+        self.obstacles = {
+            entry.get('name', f'obstacle{number}'): outline_of(entry)
+            for number, entry in enumerate(world['obstacles'], 1)
+        }
+        self.robots: dict[str, dict[str, Any]] = world['robots']
 
     def complaints(self) -> list[str]:
         """Everything that is wrong with the plan, one sentence each."""
-        return [*self._robot(), *self._continuity(), *self._motions(), *self._photos()]
+        return [*self._robots(), *self._continuity(), *self._motions(), *self._photos()]
 
-    def _robot(self) -> Iterator[str]:
-        for name in ('wheelbase', 'max_steering_angle', 'radius'):
-            if self.plan['robot'][name] != self.car[name]:
-                yield f'robot: {name} is {self.plan["robot"][name]}, not {self.car[name]}'
+    def _robots(self) -> Iterator[str]:
+        described = {robot['label']: robot for robot in self.plan['robots']}
+        for label, robot in self.robots.items():
+            for name, value in robot.items():
+                if name != 'start' and described[label][name] != value:
+                    yield f'{label}: {name} is {described[label][name]}, not {value}'
 
     def _continuity(self) -> Iterator[str]:
         steps = self.plan['steps']
@@ -58,58 +57,21 @@ class Judge:
     def _motions(self) -> Iterator[str]:
         for step in self.plan['steps']:
             name = ' '.join(step['action'])
-            length = sum(segment[1] for segment in step['segments'])
+            length = sum(abs(segment[1]) for segment in step['segments'])
             if abs(length - step['length']) > TOLERANCE:
                 yield f'{name}: {step["length"]} m, its segments {length} m'
-            for steering, piece in step['segments']:
-                if steering not in (
-                    0.0,
-                    self.car['max_steering_angle'],
-                    -self.car['max_steering_angle'],
-                ):
-                    yield f'{name}: steering angle {steering} is no command of the car'
-                if not piece > 0:
-                    yield f'{name}: a segment of {piece} m'
-            if not step['segments']:
-                yield from self._collisions(name, [pose(step['end'])])
+            if not step['agent']:
                 continue
-            driven = list(self.drive(pose(step['start']), step['segments']))
-            if gap(driven[-1], pose(step['end'])) > TOLERANCE:
-                yield f'{name}: drives to {driven[-1]}, not to {step["end"]}'
-            yield from self._collisions(name, driven)
-
-    def _collisions(self, name: str, driven: list[Pose]) -> Iterator[str]:
-        points = [(x, y) for x, y, _ in driven]
-        track = LineString(points) if len(points) > 1 else Point(points[0])
-        # A chord lies inside its arc by at most this much.
-        sagitta = SPACING**2 / (8 * self.turning_radius)
-        needed = self.car['radius'] - TOLERANCE - sagitta
-        for label, obstacle in self.obstacles.items():
-            if track.distance(obstacle) < needed:
-                yield f'{name}: {track.distance(obstacle)} m from {label}'
-        if not self.bounds.covers(track) or track.distance(self.bounds.exterior) < needed:
-            yield f'{name}: leaves the map'
-
-    def drive(self, start: Pose, segments: list[list[float]]) -> Iterator[Pose]:
-        """Sample the car's motion: x' = cos h, y' = sin h, h' = tan(phi) / L per metre."""
-        x, y, heading = start
-        yield start
-        for steering, length in segments:
-            curvature = math.tan(steering) / self.car['wheelbase']
-            pieces = max(1, math.ceil(length / SPACING))
-            for k in range(1, pieces + 1):
-                s = length * k / pieces
-                turned = curvature * s
-                # The chord of an arc: sinc keeps this exact for straight lines too.
-                chord = s * (math.sin(turned / 2) / (turned / 2) if turned else 1.0)
-                along = heading + turned / 2
-                yield (x + chord * math.cos(along), y + chord * math.sin(along), heading + turned)
-            chord = length * (
-                math.sin(curvature * length / 2) / (curvature * length / 2) if curvature else 1.0
+            vehicle = Vehicle(self.robots[step['agent']])
+            faults = motion_faults(
+                vehicle,
+                pose(step['start']),
+                step['segments'],
+                pose(step['end']),
+                self.obstacles,
+                self.bounds,
             )
-            x += chord * math.cos(heading + curvature * length / 2)
-            y += chord * math.sin(heading + curvature * length / 2)
-            heading += curvature * length
+            yield from (f'{name}: {fault}' for fault in faults)
 
     def _photos(self) -> Iterator[str]:
         """The constraints of Figure 3: 50 to 100 m away, the objective at a right angle."""
@@ -131,16 +93,3 @@ class Judge:
 def pose(attitude: dict[str, float]) -> Pose:
     """The attitude as (x, y, heading)."""
     return (attitude['x'], attitude['y'], attitude['heading'])
-
-
-def gap(first: Pose, second: Pose) -> float:
-    """The largest difference between two attitudes [m or rad], headings as directions."""
-    turned = math.remainder(first[2] - second[2], math.tau)
-    return max(abs(first[0] - second[0]), abs(first[1] - second[1]), abs(turned))
-
-
-def _shape(entry: dict[str, Any]) -> BaseGeometry:
-    if 'polygon' in entry:
-        return Polygon(entry['polygon'])
-    # A circle is judged by a polygon inside it: the checker must not refuse what is right.
-    return Point(entry['circle']['center']).buffer(entry['circle']['radius'], quad_segs=512)

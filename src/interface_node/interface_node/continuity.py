@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import hypot, isfinite, remainder, tau
 
 from interface_node.driving import drive
-from interface_node.plan import Attitude, Plan, Step
+from interface_node.plan import Attitude, Plan, Robot, Segment, Step
 
 #: [m], [rad] that two attitudes which should be the same may differ by.
 TOLERANCE = 1e-6
@@ -60,9 +60,8 @@ def _motion_faults(name: str, step: Step, plan: Plan) -> Iterator[str]:
     if before is None:
         yield f'{name}, drives {step.agent}, which stands nowhere yet'
         return
-    numbers = [number for s in step.segments for number in (s.steering_angle, s.length)]
-    if not (robot.wheelbase > 0 and all(isfinite(number) for number in numbers)):
-        yield f'{name}, has a motion that no car can drive'
+    if not all(_can_be_driven(robot, segment) for segment in step.segments):
+        yield f'{name}, has a motion that {step.agent} cannot drive'
         return
     start = step.motion_start or before
     if not same(start, before):
@@ -70,9 +69,16 @@ def _motion_faults(name: str, step: Step, plan: Plan) -> Iterator[str]:
     end = drive(start, step.segments, robot.wheelbase)
     if not same(end, step.end):
         yield f'{name}, drives to {_words(end)}, not to {_words(step.end)}'
-    length = sum(segment.length for segment in step.segments)
+    length = sum(abs(segment.length) for segment in step.segments)
     if not abs(length - step.length) <= TOLERANCE:
         yield f'{name}, is said to be {step.length:g} m long, its segments {length:g} m'
+
+
+def _can_be_driven(robot: Robot, segment: Segment) -> bool:
+    numbers = (segment.steering_angle, segment.length, segment.direction, segment.turn)
+    return all(isfinite(number) for number in numbers) and (
+        robot.wheelbase > 0 or not segment.steering_angle
+    )
 
 
 def _words(attitude: Attitude) -> str:

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Iterable, Mapping
+from math import atan2
 
+import numpy as np
 from geohtn_msgs import msg
+from nav_msgs.msg import OccupancyGrid
 
 from interface_node.plan import (
     Attitude,
     Diagnostic,
     Obstacle,
+    Occupancy,
     Plan,
     Residual,
     Robot,
@@ -61,15 +66,9 @@ def world_from_message(world: msg.World) -> World:
         revision=world.revision,
         bounds=(world.x_min, world.y_min, world.x_max, world.y_max),
         objects=objects,
-        obstacles=tuple(
-            Obstacle(
-                obstacle.name,
-                tuple((corner.x, corner.y) for corner in obstacle.polygon),
-                (obstacle.center.x, obstacle.center.y),
-                obstacle.radius,
-            )
-            for obstacle in world.obstacles
-        ),
+        obstacles=tuple(_outline(obstacle) for obstacle in world.obstacles),
+        regions=tuple(_outline(region) for region in world.regions),
+        map=_map(world.map[0]) if world.map else None,
         robots=tuple(
             Robot(
                 robot.label,
@@ -79,9 +78,32 @@ def world_from_message(world: msg.World) -> World:
                 robot.speed,
                 robot.model,
                 _attitude(robot.start[0]) if robot.start else None,
+                tuple((corner.x, corner.y) for corner in robot.footprint),
+                robot.safety_margin,
+                robot.turning_speed,
             )
             for robot in world.robots
         ),
+    )
+
+
+def _outline(shape: msg.Obstacle | msg.Region) -> Obstacle:
+    return Obstacle(
+        shape.name,
+        tuple((corner.x, corner.y) for corner in shape.polygon),
+        (shape.center.x, shape.center.y),
+        shape.radius,
+    )
+
+
+def _map(grid: OccupancyGrid) -> Occupancy:
+    origin, info = grid.info.origin, grid.info
+    cells = np.frombuffer(array('b', grid.data), np.int8).reshape(info.height, info.width)
+    return Occupancy(
+        float(info.resolution),
+        (origin.position.x, origin.position.y),
+        cells != 0,
+        2.0 * atan2(origin.orientation.z, origin.orientation.w),
     )
 
 
@@ -106,8 +128,12 @@ def step_from_message(step: msg.Step) -> Step:
         end_state=end_state,
         assigned=answer.assigned,
         motion_start=_attitude(motion.start) if motion.segments else None,
-        segments=tuple(Segment(s.steering_angle, s.length) for s in motion.segments),
+        segments=tuple(
+            Segment(s.steering_angle, s.length, s.direction, s.turn) for s in motion.segments
+        ),
         length=answer.length,
+        duration=motion.duration,
+        clearance=motion.clearance,
         residuals=tuple(Residual(r.constraint, r.violation, r.satisfied) for r in answer.residuals),
         alternative=answer.alternative,
     )

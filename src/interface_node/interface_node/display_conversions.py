@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import array
 from collections.abc import Iterable
-from math import cos, sin, tau
+from math import cos, sin
 
 from builtin_interfaces.msg import Duration, Time
 from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion, Vector3
@@ -13,12 +13,11 @@ from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
 from interface_node.driving import sample
+from interface_node.footprint import disc_outline, robot_outline
 from interface_node.occupancy import occupancy
 from interface_node.plan import Attitude, Obstacle, Plan, World
 
 FRAME = 'map'
-#: Corners that a disc's outline is drawn with.
-DISC_CORNERS = 48
 FREE, OCCUPIED = 0, 100
 
 
@@ -75,6 +74,7 @@ def marker_array(plan: Plan, spacing: float, stamp: Time) -> MarkerArray:
         clear,
         *(_outline(obstacle, size) for obstacle in world.obstacles),
         *_objects(world, size),
+        *_footprints(plan, world, size),
         *_attitudes(plan, size),
         _views(plan, world, size),
         _way(plan, spacing, size, stamp),
@@ -90,11 +90,28 @@ def _outline(obstacle: Obstacle, size: float) -> Marker:
     corners: Iterable[tuple[float, float]] = obstacle.corners
     if not obstacle.corners:
         (x, y), radius = obstacle.center, obstacle.radius
-        turns = [tau * k / DISC_CORNERS for k in range(DISC_CORNERS)]
-        corners = [(x + radius * cos(turn), y + radius * sin(turn)) for turn in turns]
+        corners = disc_outline(x, y, radius)
+    return _closed_line('obstacles', corners, (0.45, 0.48, 0.52), size / 4)
+
+
+def _footprints(plan: Plan, world: World, size: float) -> Iterable[Marker]:
+    """The outline of the robot where it stands after each action."""
+    for step in plan.steps:
+        robot = world.robot(step.agent)
+        if robot and step.end:
+            corners = robot_outline(robot, step.end)
+            yield _closed_line('footprints', corners, (0.17, 0.37, 0.62), size / 8)
+
+
+def _closed_line(
+    namespace: str,
+    corners: Iterable[tuple[float, float]],
+    color: tuple[float, float, float],
+    width: float,
+) -> Marker:
     points = [_point(*corner) for corner in corners]
-    marker = _marker('obstacles', Marker.LINE_STRIP, (0.45, 0.48, 0.52))
-    marker.scale.x = size / 4
+    marker = _marker(namespace, Marker.LINE_STRIP, color)
+    marker.scale.x = width
     marker.points = [*points, points[0]]
     return marker
 

@@ -27,7 +27,7 @@ from interface_node.outputs_node import Outputs
 from interface_node.parameters import Parameters
 from interface_node.peers_node import Peers, Unavailable
 from interface_node.plan import Plan
-from interface_node.sources import SourceError, read_source
+from interface_node.sources import SourceError, directory_of, read_source
 from interface_node.waiting import Cancelled, repeating
 
 #: [s] between two words on how a mission is getting on, at most.
@@ -108,7 +108,11 @@ class Mission:
         around.peers.check(parameters.peer_timeout, around.should_stop)
         self._report('checking')
         accepted = around.peers.set_world(
-            SetWorld.Request(source=world.path or 'world', yaml=world.text),
+            SetWorld.Request(
+                source=world.path or 'world',
+                yaml=world.text,
+                directory=directory_of(world.path),
+            ),
             parameters.service_timeout,
             around.should_stop,
         )

@@ -2,35 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import ceil, sqrt
+from math import ceil, cos, sin, sqrt
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from interface_node.plan import Obstacle, World
+from interface_node.plan import Obstacle, Occupancy, World
 
 #: More cells than this are never filled; the resolution grows instead.
 MAX_CELLS = 4_000_000
 
 
-@dataclass(frozen=True, slots=True)
-class Occupancy:
-    """Cells of side ``resolution`` [m], row by row from the corner ``origin`` (x, y) [m].
-
-    ``occupied`` has the shape (rows, columns), rows to the north.
-    """
-
-    resolution: float
-    origin: tuple[float, float]
-    occupied: NDArray[np.bool_]
-
-
 def occupancy(world: World, resolution: float) -> Occupancy:
     """Rasterise the world: a cell is occupied when its centre lies in an obstacle.
 
-    The resolution [m] grows where the bounds would take more than MAX_CELLS.
+    So is one that holds the centre of an occupied cell of the world's own map, which may be finer.
+    The resolution [m] is at most that of the map, but grows where the bounds would take more than
+    MAX_CELLS.
     """
+    if world.map:
+        resolution = min(resolution, world.map.resolution)
     x_min, y_min, x_max, y_max = world.bounds
     width, height = x_max - x_min, y_max - y_min
     resolution = max(
@@ -48,7 +40,36 @@ def occupancy(world: World, resolution: float) -> Occupancy:
         inner_x = slice(*np.searchsorted(x, (left, right)))
         inner_y = slice(*np.searchsorted(y, (low, high)))
         occupied[inner_y, inner_x] |= _inside(obstacle, x[inner_x][None, :], y[inner_y][:, None])
-    return Occupancy(resolution, (x_min, y_min), occupied)
+    grid = Occupancy(resolution, (x_min, y_min), occupied)
+    if world.map:
+        _add_map(grid, world.map)
+    return grid
+
+
+def _add_map(grid: Occupancy, other: Occupancy) -> None:
+    """Mark in ``grid`` what is occupied in another grid, however fine and turned that is."""
+    rows, columns = grid.occupied.shape
+    c, s = cos(other.yaw), sin(other.yaw)
+    most_rows, most_columns = other.occupied.shape
+    for j in range(most_rows):
+        i = np.flatnonzero(other.occupied[j]) + 0.5
+        x = other.origin[0] + other.resolution * (c * i - s * (j + 0.5))
+        y = other.origin[1] + other.resolution * (s * i + c * (j + 0.5))
+        column = _floor((x - grid.origin[0]) / grid.resolution)
+        row = _floor((y - grid.origin[1]) / grid.resolution)
+        held = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
+        grid.occupied[row[held], column[held]] = True
+    dx = grid.origin[0] + (np.arange(columns) + 0.5) * grid.resolution - other.origin[0]
+    for j in range(rows):
+        dy = grid.origin[1] + (j + 0.5) * grid.resolution - other.origin[1]
+        column = _floor((c * dx + s * dy) / other.resolution)
+        row = _floor((c * dy - s * dx) / other.resolution)
+        held = (row >= 0) & (row < most_rows) & (column >= 0) & (column < most_columns)
+        grid.occupied[j, held] |= other.occupied[row[held], column[held]]
+
+
+def _floor(values: NDArray[np.floating[Any]]) -> NDArray[np.int64]:
+    return np.asarray(np.floor(values), dtype=np.int64)
 
 
 def _box(obstacle: Obstacle) -> tuple[float, float, float, float]:

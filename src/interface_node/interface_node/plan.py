@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+import numpy as np
+from numpy.typing import NDArray
+
 
 @dataclass(frozen=True, slots=True)
 class Attitude:
@@ -17,10 +20,17 @@ class Attitude:
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """An arc of ``length`` [m] driven forward at ``steering_angle`` [rad], positive to the left."""
+    """One of: an arc or a straight line, a slide, a turn on the spot.
+
+    An arc has a ``length`` [m], negative when driven backwards, and a ``steering_angle`` [rad],
+    positive to the left; a slide a length and a ``direction`` [rad] from the heading, which stays;
+    a turn on the spot no length but a ``turn`` [rad], counter-clockwise.
+    """
 
     steering_angle: float
     length: float
+    direction: float = 0.0
+    turn: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +60,11 @@ class Diagnostic:
 
 @dataclass(frozen=True, slots=True)
 class Robot:
-    """A car: wheelbase, radius of its disc [m], largest steering angle [rad], speed [m/s]."""
+    """Of one model: wheelbase, radius [m], largest steering angle [rad], speeds [m/s] and [rad/s].
+
+    ``footprint`` are corners [m] in the robot's frame, x forward and y left, none for a disc;
+    ``safety_margin`` [m] is what it keeps from obstacles.
+    """
 
     label: str
     wheelbase: float
@@ -59,16 +73,36 @@ class Robot:
     speed: float = 0.0
     model: str = 'car'
     start: Attitude | None = None
+    footprint: tuple[tuple[float, float], ...] = ()
+    safety_margin: float = 0.0
+    turning_speed: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
 class Obstacle:
-    """A polygon by its corners [m], or a disc by its centre and radius [m] when it has none."""
+    """A polygon by its corners [m], or a disc by its centre and radius [m] when it has none.
+
+    Regions, which robots may enter, are told in the same way.
+    """
 
     name: str
     corners: tuple[tuple[float, float], ...] = ()
     center: tuple[float, float] = (0.0, 0.0)
     radius: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Occupancy:
+    """Cells of side ``resolution`` [m], row by row from the corner ``origin`` (x, y) [m].
+
+    ``occupied`` has the shape (rows, columns); rows go north, but for a turn by ``yaw`` [rad]
+    about the corner.
+    """
+
+    resolution: float
+    origin: tuple[float, float]
+    occupied: NDArray[np.bool_]
+    yaw: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +115,8 @@ class World:
     objects: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     obstacles: tuple[Obstacle, ...] = ()
     robots: tuple[Robot, ...] = ()
+    regions: tuple[Obstacle, ...] = ()
+    map: Occupancy | None = None
 
     def robot(self, label: str) -> Robot | None:
         """The robot of that label, or nothing."""
@@ -92,7 +128,8 @@ class Step:
     """One action; ``agent`` is empty and there is no ``end`` when it is purely symbolic.
 
     ``state`` holds the attitudes of the agents before the action, ``end`` that of its agent after
-    it. ``motion_start`` is where the segments begin, nothing when the robot was not driven.
+    it. ``motion_start`` is where the segments begin, nothing when the robot was not driven; it is
+    then that ``clearance`` [m], the least along the motion, and ``duration`` [s] mean something.
     """
 
     action: tuple[str, ...]
@@ -107,6 +144,8 @@ class Step:
     motion_start: Attitude | None = None
     segments: tuple[Segment, ...] = ()
     length: float = 0.0
+    duration: float = 0.0
+    clearance: float = 0.0
     residuals: tuple[Residual, ...] = ()
     alternative: int = 0
 
@@ -137,6 +176,11 @@ class Plan:
     def length(self) -> float:
         """Length [m] of all motions."""
         return float(sum(step.length for step in self.steps))
+
+    @property
+    def duration(self) -> float:
+        """Time [s] that all motions take, one after the other."""
+        return float(sum(step.duration for step in self.steps))
 
     @property
     def robot(self) -> Robot | None:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from math import isfinite
 from typing import Any
 
-from interface_node.plan import Attitude, Diagnostic, Plan, Robot, Step
+from interface_node.plan import Attitude, Diagnostic, Plan, Robot, Segment, Step
 
 
 def plan_document(plan: Plan) -> dict[str, Any]:
@@ -32,8 +32,10 @@ def plan_document(plan: Plan) -> dict[str, Any]:
         'world': plan.world_path,
         'world_revision': plan.world.revision if plan.world else '',
         'robot': _robot(robot) if robot else None,
+        'robots': [_robot(item) for item in plan.world.robots] if plan.world else [],
         'steps': steps,
         'length': number(plan.length),
+        'duration': number(plan.duration),
         'planning_time': number(plan.planning_time),
         'statistics': _statistics(plan.statistics),
     }
@@ -59,8 +61,10 @@ def _step(step: Step, standing: Attitude | None) -> dict[str, Any]:
         'cost': number(step.cost),
         'start': _attitude(step.start if step.agent else standing),
         'end': _attitude(step.end if step.agent else standing),
-        'segments': [[number(s.steering_angle), number(s.length)] for s in step.segments],
+        'segments': [_segment(segment) for segment in step.segments],
         'length': number(step.length),
+        'duration': number(step.duration),
+        'clearance': number(step.clearance) if step.motion_start else None,
         'preconditions': step.preconditions,
         'residuals': [
             {
@@ -71,6 +75,14 @@ def _step(step: Step, standing: Attitude | None) -> dict[str, Any]:
             for residual in step.residuals
         ],
     }
+
+
+def _segment(segment: Segment) -> list[float | None]:
+    """Steering angle and length; direction and turn as well where there is one of them."""
+    row = [segment.steering_angle, segment.length]
+    if segment.direction or segment.turn:
+        row += [segment.direction, segment.turn]
+    return [number(value) for value in row]
 
 
 def _attitude(attitude: Attitude | None) -> dict[str, float | None] | None:
@@ -90,7 +102,10 @@ def _robot(robot: Robot) -> dict[str, Any]:
         'wheelbase': number(robot.wheelbase),
         'max_steering_angle': number(robot.max_steering_angle),
         'radius': number(robot.radius),
+        'footprint': [[number(x), number(y)] for x, y in robot.footprint],
+        'safety_margin': number(robot.safety_margin),
         'speed': number(robot.speed),
+        'turning_speed': number(robot.turning_speed),
     }
 
 

@@ -27,10 +27,13 @@ from rclpy.node import Node
 from interface_node.recording.comparison import differences, sentence
 from interface_node.recording.errors import RecordingError
 from interface_node.recording.message_conversions import EVENTS, read_messages
+from interface_node.sources import directory_of
 from interface_node.waiting import TimedOut, wait_for, wait_until
 
 #: What may differ between two answers that say the same.
 IGNORED = frozenset({'time_spent', 'request_id'})
+#: Codes of what was broken off, and says nothing that could be compared.
+ENDED_EARLY = {GeometricAnswer.OUT_OF_TIME, GeometricAnswer.CANCELLED}
 #: [s] to find the motion planner.
 FIND_TIMEOUT = 5.0
 
@@ -109,8 +112,8 @@ def _compare(client: _Client, events: list[PlanningEvent]) -> ReplayReport:
         counts[ask] += 1
         name = _name(asked[0])
         now = ask(asked[0])
-        if GeometricAnswer.OUT_OF_TIME in (before[0].code, now.code):
-            skipped.append(f'{name}: ended by the clock, not by the search')
+        if {before[0].code, now.code} & ENDED_EARLY:
+            skipped.append(f'{name}: ended by the clock or its client, not by the search')
             continue
         found = list(differences(before[0], now, IGNORED))
         if found:
@@ -176,7 +179,10 @@ class _Client:
 
     def set_world(self, world: SourceText) -> str:
         """Set the world; give what is wrong with it, empty when it is accepted."""
-        response = self._call(SetWorld, SetWorld.Request(source=world.path, yaml=world.text))
+        request = SetWorld.Request(
+            source=world.path, yaml=world.text, directory=directory_of(world.path)
+        )
+        response = self._call(SetWorld, request)
         if response.accepted:
             return ''
         return '; '.join(remark.message for remark in response.diagnostics) or 'without a reason'

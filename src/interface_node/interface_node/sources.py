@@ -19,6 +19,14 @@ class SourceError(Exception):
         self.diagnostic = diagnostic
 
 
+def directory_of(path: str) -> str:
+    """The directory, in full, that file names in the text at ``path`` start from.
+
+    The working directory for a text without a path.
+    """
+    return str(Path(path or 'world').absolute().parent)
+
+
 def read_source(kind: str, path: str, text: str) -> str:
     """The text itself, or that of the file at ``path`` when it is empty.
 

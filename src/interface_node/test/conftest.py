@@ -47,6 +47,8 @@ def photo(place: str, start: Attitude, *segments: Segment) -> Step:
         motion_start=start,
         segments=segments,
         length=sum(segment.length for segment in segments),
+        duration=7.5,
+        clearance=2.5,
         residuals=(Residual(f'distance(rover0, {place}) <= 20', 0.0, satisfied=True),),
     )
 
@@ -89,7 +91,12 @@ def sample_steps(sample_plan: Plan) -> list[Any]:
         return [msg.AgentState(agent=k, x=a.x, y=a.y, heading=a.heading) for k, a in of.items()]
 
     def answer(step: Step) -> Any:
-        motion = msg.Motion(agent=step.agent, length=step.length)
+        motion = msg.Motion(
+            agent=step.agent,
+            length=step.length,
+            duration=step.duration,
+            clearance=step.clearance,
+        )
         if step.motion_start:
             (motion.start,) = states({step.agent: step.motion_start})
         motion.segments = [

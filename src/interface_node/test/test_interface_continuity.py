@@ -43,7 +43,7 @@ def test_a_plan_that_fits_has_no_faults(sample_plan: Plan) -> None:
         (3, lambda s: replace(s, length=s.length + 1), 'is said to be'),
         (3, lambda s: replace(s, length=nan), 'is said to be'),
         (3, lambda s: replace(s, agent='rover9'), 'the world does not have'),
-        (3, lambda s: replace(s, segments=(Segment(0.0, inf),)), 'no car can drive'),
+        (3, lambda s: replace(s, segments=(Segment(0.0, inf),)), 'that rover0 cannot drive'),
         (0, lambda s: replace(s, assigned=False), 'stands nowhere yet'),
     ],
 )

@@ -63,3 +63,24 @@ def test_samples_lie_on_the_way_and_close_together(
 def test_a_very_long_motion_is_sampled_more_widely() -> None:
     samples = sample(Attitude(0.0, 0.0, 0.0), [Segment(0.0, 1e6)], 8.0, 0.01)
     assert len(samples) <= MAX_SAMPLES + 1
+
+
+def test_a_car_drives_backwards_along_the_arc_that_it_came() -> None:
+    start = Attitude(1.0, 2.0, 0.5)
+    there = [Segment(0.5, 7.0), Segment(0.0, 3.0)]
+    back = [Segment(0.0, -3.0), Segment(0.5, -7.0)]
+    end = drive(start, [*there, *back], 8.0)
+    assert hypot(end.x - start.x, end.y - start.y, end.heading - start.heading) < 1e-12
+
+
+def test_slides_keep_the_heading_and_turns_the_place() -> None:
+    start = Attitude(1.0, 2.0, pi / 2)
+    slid, turned = Segment(0.0, 3.0, direction=-pi / 2), Segment(0.0, 0.0, turn=-pi)
+    end = drive(start, [slid, turned], 0.0)
+    assert hypot(end.x - 4.0, end.y - 2.0) < 1e-12
+    assert abs(end.heading + pi / 2) < 1e-12
+    rows = sample(start, [slid, turned], 0.0, 0.5)
+    steps = np.diff(rows, axis=0)
+    assert np.abs(steps[:, 2]).max() <= pi / 18 + 1e-9
+    assert np.hypot(steps[:, 0], steps[:, 1]).max() <= 0.5 + 1e-9
+    assert len(sample(start, [Segment(0.0, 0.0, turn=1e9)], 0.0, 0.5)) <= MAX_SAMPLES + 1

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from io import BytesIO
+from math import pi
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from matplotlib.patches import Circle, Polygon
 
 from interface_node.picture import draw, write_picture
 from interface_node.picture.labels import place_labels
-from interface_node.plan import Plan, World
+from interface_node.plan import Obstacle, Occupancy, Plan, World
 
 
 def test_everything_is_drawn(sample_plan: Plan) -> None:
@@ -44,6 +45,51 @@ def test_everything_is_drawn(sample_plan: Plan) -> None:
     np.testing.assert_allclose(driven[-1, 1], (last.x, last.y), atol=1e-9)
     assert [tuple(view[1]) for view in views] == [(40.0, 40.0), (70.0, 15.0)]
     assert axes.get_title(loc='left') == 'small: 4 actions, 36 m'
+
+
+def test_a_footprint_is_drawn_where_the_robot_stands(sample_plan: Plan) -> None:
+    assert sample_plan.world is not None
+    robots = tuple(
+        replace(robot, footprint=((-1.0, -1.0), (2.0, -1.0), (2.0, 1.0), (-1.0, 1.0)))
+        for robot in sample_plan.world.robots
+    )
+    plan = replace(sample_plan, world=replace(sample_plan.world, robots=robots))
+    (axes,) = draw(plan).axes
+    outlines = [
+        patch.get_xy()[:-1]
+        for patch in axes.patches
+        if isinstance(patch, Polygon) and not patch.get_fill()
+    ]
+    assert len(outlines) == 3
+    np.testing.assert_allclose(outlines[0], [(9, 9), (12, 9), (12, 11), (9, 11)])
+
+
+def test_regions_and_the_map_are_drawn(sample_plan: Plan) -> None:
+    assert sample_plan.world is not None
+    regions = (
+        Obstacle('dock', ((60.0, 0.0), (80.0, 0.0), (80.0, 9.0))),
+        Obstacle('yard', (), (20.0, 40.0), 8.0),
+    )
+    cells = np.zeros((5000, 30), np.bool_)
+    cells[7, 3] = True
+    world = replace(
+        sample_plan.world, regions=regions, map=Occupancy(0.01, (5.0, 6.0), cells, pi / 2)
+    )
+    (axes,) = draw(replace(sample_plan, world=world)).axes
+    assert {text.get_text() for text in axes.texts} >= {'dock', 'yard'}
+    legend = axes.get_legend()
+    assert legend is not None
+    assert 'region' in {text.get_text() for text in legend.get_texts()}
+    (image,) = axes.images
+    pixels = np.asarray(image.get_array())
+    assert max(pixels.shape) <= 2000
+    ((row, column),) = np.argwhere(pixels[..., 3] > 0)
+    left, right, low, high = image.get_extent()
+    place = ((column + 0.5) / pixels.shape[1], (row + 0.5) / pixels.shape[0])
+    at = (left + place[0] * (right - left), low + place[1] * (high - low))
+    drawn = axes.transData.inverted().transform(image.get_transform().transform(at))
+    np.testing.assert_allclose(drawn, (5.0 - 0.075, 6.0 + 0.035), atol=0.03)
+    assert axes.get_xlim() == (world.bounds[0], world.bounds[2])
 
 
 def test_the_picture_is_a_png_of_some_size_and_always_the_same(sample_plan: Plan) -> None:

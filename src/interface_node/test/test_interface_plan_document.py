@@ -36,7 +36,9 @@ def test_the_contract_is_kept(sample_plan: Plan) -> None:
         '!charge',
         '!take_photo',
     ]
-    assert document['length'] == sum(step['length'] for step in document['steps'])
+    for key in ('length', 'duration'):
+        assert document[key] == sum(step[key] for step in document['steps'])
+    assert [step['clearance'] for step in document['steps']] == [None, 2.5, None, 2.5]
 
 
 def test_a_stranger_can_drive_the_plan_from_the_file_alone(sample_plan: Plan) -> None:
@@ -50,6 +52,23 @@ def test_a_stranger_can_drive_the_plan_from_the_file_alone(sample_plan: Plan) ->
         assert end == Attitude(**step['end'])
     ends = [step['end'] for step in document['steps']]
     assert [step['start'] for step in document['steps'][1:]] == ends[:-1]
+
+
+def test_a_segment_has_four_numbers_only_where_it_needs_them(sample_plan: Plan) -> None:
+    segments = (
+        Segment(0.5, -2.0),
+        Segment(0.0, 3.0, direction=0.25),
+        Segment(0.0, 0.0, turn=-1.5),
+    )
+    plan = replace(sample_plan, steps=(replace(sample_plan.steps[1], segments=segments),))
+    document = read(plan)
+    assert document['steps'][0]['segments'] == [
+        [0.5, -2.0],
+        [0.0, 3.0, 0.25, 0.0],
+        [0.0, 0.0, 0.0, -1.5],
+    ]
+    assert [robot['label'] for robot in document['robots']] == ['scout', 'rover0']
+    assert document['robot'] in document['robots']
 
 
 def test_numbers_are_read_back_bit_for_bit(sample_plan: Plan) -> None:

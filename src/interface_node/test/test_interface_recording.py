@@ -161,6 +161,7 @@ def test_markers_have_ids_of_their_own(sample_plan: Plan) -> None:
     markers = marker_array(sample_plan, 1.0, HEADER.stamp).markers
     assert len({marker.id for marker in markers}) == len(markers)
     assert {marker.ns for marker in markers[1:]} == {
+        'footprints',
         'obstacles',
         'objects',
         'labels',

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from interface_node.sources import MAX_BYTES, SourceError, read_source
+from interface_node.sources import MAX_BYTES, SourceError, directory_of, read_source
 
 
 def test_the_text_wins_over_the_path(tmp_path: Path) -> None:
@@ -73,3 +73,12 @@ def test_a_mission_without_a_text_or_a_path_is_refused() -> None:
 def test_a_text_that_was_given_is_limited_as_well() -> None:
     with pytest.raises(SourceError, match='at most 1 MiB'):
         read_source('world', '', 'é' * (MAX_BYTES // 2 + 1))
+
+
+def test_file_names_in_a_text_start_from_its_directory(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert directory_of('') == str(tmp_path)
+    assert directory_of('rover/world.yaml') == str(tmp_path / 'rover')
+    assert directory_of(str(tmp_path / 'world.yaml')) == str(tmp_path)

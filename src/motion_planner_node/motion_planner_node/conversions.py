@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from math import isfinite, pi, remainder, tau
 
 from geohtn_msgs import msg
 from geometry_msgs.msg import Point
@@ -11,6 +10,13 @@ from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescri
 
 from motion_planner_node.codes import Code
 from motion_planner_node.errors import Diagnostic, MotionPlannerError
+from motion_planner_node.map_conversions import map_to_msg
+from motion_planner_node.motion_conversions import (
+    agent_state_to_msg,
+    attitude_from_msg,
+    motion_to_msg,
+    robot_to_msg,
+)
 from motion_planner_node.parameters import Specification
 from motion_planner_node.requests import (
     AdviceAnswer,
@@ -19,7 +25,7 @@ from motion_planner_node.requests import (
     GeometricAnswer,
     GeometricRequest,
 )
-from motion_planner_node.robots.motion import Attitude, GeometricState, Motion
+from motion_planner_node.robots.motion import Attitude, GeometricState
 from motion_planner_node.world.model import Obstacle, Polygon, Region, World
 
 
@@ -34,30 +40,13 @@ def state_from_msg(states: Sequence[msg.AgentState]) -> GeometricState:
             raise MotionPlannerError(
                 Code.INVALID_START, f'the start names agent {state.agent} twice'
             )
-        for name in ('x', 'y', 'heading'):
-            value = getattr(state, name)
-            if not isfinite(value):
-                raise MotionPlannerError(
-                    Code.INVALID_START, f'the start of {state.agent} has {name} {value}'
-                )
-        heading = state.heading if -pi < state.heading <= pi else remainder(state.heading, tau)
-        result[state.agent] = Attitude(state.x, state.y, pi if heading == -pi else heading)
+        result[state.agent] = attitude_from_msg(state)
     return result
 
 
 def state_to_msg(state: GeometricState) -> list[msg.AgentState]:
     """Attitudes in the order of ``state``."""
     return [agent_state_to_msg(agent, attitude) for agent, attitude in state.items()]
-
-
-def agent_state_to_msg(agent: str, attitude: Attitude) -> msg.AgentState:
-    """One attitude."""
-    return msg.AgentState(
-        agent=agent,
-        x=float(attitude.x),
-        y=float(attitude.y),
-        heading=float(attitude.heading),
-    )
 
 
 def request_from_msg(request: msg.GeometricRequest) -> GeometricRequest:
@@ -76,6 +65,7 @@ def request_from_msg(request: msg.GeometricRequest) -> GeometricRequest:
         time_budget=request.time_budget,
         request_id=request.request_id,
         mode=request.mode,
+        planner=request.planner,
     )
 
 
@@ -96,6 +86,7 @@ def advice_request_from_msg(request: msg.AdviceRequest) -> AdviceRequest:
         world_revision=request.world_revision,
         seed=request.seed,
         request_id=request.request_id,
+        pairwise=request.pairwise,
     )
 
 
@@ -115,7 +106,11 @@ def answer_to_msg(
         message=answer.message,
         end=state_to_msg(answer.end),
         assigned=bool(answer.assigned),
-        motion=_motion_to_msg(answer.motion) if answer.motion else msg.Motion(),
+        motion=(
+            motion_to_msg(answer.motion, answer.duration, answer.clearance)
+            if answer.motion
+            else msg.Motion()
+        ),
         length=float(answer.length),
         residuals=[
             msg.ConstraintResidual(
@@ -148,6 +143,8 @@ def advice_to_msg(
         world_revision=answer.world_revision,
         candidates=[_candidate_to_msg(candidate) for candidate in answer.candidates],
         order=[int(index) for index in answer.order],
+        pairwise_lower_bounds=list(answer.pairwise_lower_bounds),
+        pairwise_estimates=list(answer.pairwise_estimates),
         time_spent=float(time_spent),
     )
 
@@ -181,7 +178,7 @@ def diagnostics_to_msg(diagnostics: Iterable[Diagnostic]) -> list[msg.Diagnostic
 
 
 def world_to_msg(world: World) -> msg.World:
-    """The world, its objects, obstacles, robots and regions in their order."""
+    """The world, its objects, obstacles, robots, regions and map, in their order."""
     return msg.World(
         source=world.source,
         revision=world.revision,
@@ -199,18 +196,8 @@ def world_to_msg(world: World) -> msg.World:
         ],
         obstacles=[_obstacle_to_msg(obstacle) for obstacle in world.obstacles],
         regions=[_region_to_msg(region) for region in world.regions.values()],
-        robots=[
-            msg.RobotModel(
-                label=label,
-                model='car',
-                wheelbase=float(car.wheelbase),
-                max_steering_angle=float(car.max_steering_angle),
-                radius=float(car.radius),
-                speed=float(car.speed),
-                start=[agent_state_to_msg(label, car.start)] if car.start else [],
-            )
-            for label, car in world.robots.items()
-        ],
+        robots=[robot_to_msg(robot) for robot in world.robots.values()],
+        map=[map_to_msg(world.map)] if world.map else [],
     )
 
 
@@ -253,18 +240,6 @@ def _obstacle_to_msg(obstacle: Obstacle) -> msg.Obstacle:
         name=obstacle.name,
         center=Point(x=float(x), y=float(y)),
         radius=float(obstacle.radius),
-    )
-
-
-def _motion_to_msg(motion: Motion) -> msg.Motion:
-    return msg.Motion(
-        agent=motion.agent,
-        start=agent_state_to_msg(motion.agent, motion.start),
-        segments=[
-            msg.Segment(steering_angle=float(segment.steering_angle), length=float(segment.length))
-            for segment in motion.segments
-        ],
-        length=float(motion.length),
     )
 
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import traceback
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
+from typing import TypeVar
 
 from motion_planner_node.codes import Code
+
+Result = TypeVar('Result')
 
 
 class Severity(IntEnum):
@@ -63,3 +67,22 @@ class MotionPlannerError(Exception):
 
 class Stopped(Exception):
     """``should_stop`` said so: the deadline is over, or the client took the request back."""
+
+
+def guarded(work: Callable[[], Result], log: Callable[[str], object]) -> Result:
+    """Do ``work``; a fault of the program goes to ``log`` and is told, so that a node outlives it.
+
+    :raises MotionPlannerError: whatever goes wrong; INTERNAL for what should not
+    :raises Stopped: when the work was broken off
+    """
+    try:
+        return work()
+    except (MotionPlannerError, Stopped):
+        raise
+    except Exception as error:
+        log(traceback.format_exc())
+        raise MotionPlannerError(
+            Code.INTERNAL,
+            f'a fault of the motion planner, please report it with its log: '
+            f'{type(error).__name__}: {error}',
+        ) from error

@@ -4,40 +4,31 @@ from __future__ import annotations
 
 import sys
 import threading
-import traceback
-from collections.abc import Callable
-from pathlib import Path
 from time import perf_counter
-from typing import TypeVar
 
 import rclpy
 from geohtn_msgs import msg, srv
-from rcl_interfaces.msg import SetParametersResult
-from rclpy.exceptions import InvalidParameterValueException
-from rclpy.executors import SingleThreadedExecutor
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.node import Node
-from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
 from motion_planner_node import conversions
-from motion_planner_node.codes import Code
-from motion_planner_node.errors import Diagnostic, MotionPlannerError, Stopped
+from motion_planner_node.errors import MotionPlannerError, guarded
+from motion_planner_node.executor_node import AtMost, RelayExecutor
 from motion_planner_node.functions import PluginError, load_plugins
-from motion_planner_node.parameters import (
-    ParameterError,
-    Parameters,
-    read_parameters,
-    specifications,
-)
-from motion_planner_node.planner import MotionPlanner, warm_up
-from motion_planner_node.planning.answers import refused
+from motion_planner_node.motion_conversions import motion_from_msg, path_to_msg
+from motion_planner_node.parameters import ParameterError, Parameters
+from motion_planner_node.planner import warm_up
+from motion_planner_node.planning.answers import as_cancelled, refused
 from motion_planner_node.planning.check import check_text
-from motion_planner_node.requests import GeometricAnswer
+from motion_planner_node.planning.sampled import sampled
+from motion_planner_node.requests import AdviceAnswer, GeometricAnswer
+from motion_planner_node.settings_node import Settings
 from motion_planner_node.signals import interrupt_on_signals
-from motion_planner_node.world import read_world
-from motion_planner_node.world.syntax import LONGEST_TEXT
+from motion_planner_node.turns import Turns
+from motion_planner_node.worlds_node import Worlds, diagnostics_of
 
 USAGE = """\
 usage: motion_planner_node [--help] [--ros-args ...]
@@ -52,8 +43,10 @@ examples:
 """
 #: Exchanges that a slow subscriber of planning_events may lag behind.
 EVENTS_KEPT = 1000
-
-Result = TypeVar('Result')
+#: Requests that may wait or run at a time; so many more wait in the middleware.
+MOST_WAITING, MOST_UNREAD = 16, 1000
+#: One for each of these, for each group of other callbacks, and one to wait for messages.
+THREADS = MOST_WAITING + 5
 
 
 class MotionPlannerNode(Node):
@@ -64,11 +57,12 @@ class MotionPlannerNode(Node):
     Publishers
         ``planning_events`` (geohtn_msgs/PlanningEvent): each exchange, in the order answered
     Services
-        ``satisfy_preconditions``, ``advise``, ``check_preconditions``, ``set_world``, ``get_world``
+        ``satisfy_preconditions``, ``advise``, ``cancel_request``, ``check_preconditions``,
+        ``sample_motion``, ``set_world``, ``get_world``
 
-    All services share one thread.  Solving holds Python's interpreter lock, so a second thread
-    would not answer sooner, and it makes every exchange slower (1.1 ms against 0.4 ms); requests
-    take milliseconds and have a deadline.  Who needs more at once starts replicas of the node.
+    Requests are worked on one at a time, in the order in which they come: solving takes all that a
+    core has, so two at a time would only both be slower.  Who needs more at once starts replicas of
+    the node.  All else is answered meanwhile, and a request stays with the world that it began with.
 
     :raises ParameterError: when a parameter has a wrong value
     :raises MotionPlannerError: when the world named by the parameter ``world`` cannot be used
@@ -76,8 +70,8 @@ class MotionPlannerNode(Node):
 
     def __init__(self, **options: object) -> None:
         super().__init__('motion_planner_node', **options)
-        self._planner: MotionPlanner | None = None
         self.stopping = threading.Event()
+        self._turns = Turns()
         try:
             self._prepare()
         except BaseException:
@@ -85,49 +79,33 @@ class MotionPlannerNode(Node):
             raise
 
     def _prepare(self) -> None:
-        self._settings = self._declare()
+        self._settings = Settings(self, self._adopt)
         self._events = self.create_publisher(
             msg.PlanningEvent,
             'planning_events',
             QoSProfile(depth=EVENTS_KEPT, reliability=ReliabilityPolicy.RELIABLE),
         )
-        if self._settings.world:
-            self._use_world(_read_file(self._settings.world), self._settings.world)
         warm_up()
-        self.create_service(srv.SatisfyPreconditions, 'satisfy_preconditions', self._satisfy)
-        self.create_service(srv.Advise, 'advise', self._advise)
-        self.create_service(srv.CheckPreconditions, 'check_preconditions', self._check)
-        self.create_service(srv.SetWorld, 'set_world', self._set_world)
-        self.create_service(srv.GetWorld, 'get_world', self._get_world)
+        self._worlds = Worlds(self, self._settings.current)
+        requests, quick = AtMost(MOST_WAITING), MutuallyExclusiveCallbackGroup()
+        unread = QoSProfile(depth=MOST_UNREAD, reliability=ReliabilityPolicy.RELIABLE)
+        for kind, name, answer, group in (
+            (srv.SatisfyPreconditions, 'satisfy_preconditions', self._satisfy, requests),
+            (srv.Advise, 'advise', self._advise, requests),
+            (srv.CancelRequest, 'cancel_request', self._cancel, MutuallyExclusiveCallbackGroup()),
+            (srv.CheckPreconditions, 'check_preconditions', self._check, quick),
+            (srv.SampleMotion, 'sample_motion', self._sample, quick),
+        ):
+            self.create_service(kind, name, answer, qos_profile=unread, callback_group=group)
+        self._worlds.serve(self, MutuallyExclusiveCallbackGroup(), quick)
 
-    # ---- parameters
+    def _adopt(self, parameters: Parameters) -> None:
+        self._worlds.adopt(parameters)
 
-    def _declare(self) -> Parameters:
-        table = specifications()
-        self.add_on_set_parameters_callback(self._check_parameters)
-        try:
-            for row in table:
-                self.declare_parameter(row.name, row.default, conversions.descriptor_of(row))
-        except InvalidParameterValueException as error:
-            raise ParameterError(str(error)) from error
-        self.add_post_set_parameters_callback(self._adopt_parameters)
-        return read_parameters({row.name: self.get_parameter(row.name).value for row in table})
-
-    def _check_parameters(self, changed: list[Parameter]) -> SetParametersResult:
-        own = {row.name: row for row in specifications()}
-        try:
-            for parameter in changed:
-                if parameter.name in own:
-                    own[parameter.name].accept(parameter.value)
-        except ParameterError as error:
-            return SetParametersResult(successful=False, reason=str(error))
-        return SetParametersResult(successful=True)
-
-    def _adopt_parameters(self, _changed: list[Parameter]) -> None:
-        names = [row.name for row in specifications()]
-        self._settings = read_parameters({name: self.get_parameter(name).value for name in names})
-        if self._planner is not None:
-            self._planner = MotionPlanner(self._planner.world, self._settings)
+    def finish(self) -> None:
+        """Break off all requests, and take no more."""
+        self.stopping.set()
+        self._turns.close()
 
     # ---- services
 
@@ -137,11 +115,9 @@ class MotionPlannerNode(Node):
         received, started = self.get_clock().now(), perf_counter()
         asked = request.request
         try:
-            pure = conversions.request_from_msg(asked)
-            stop = self._deadline(started, pure.time_budget)
-            answer = self._guarded(lambda: self._current().satisfy(pure, stop))
+            answer = self._answer(asked)
         except MotionPlannerError as error:
-            answer = refused(error, self._revision)
+            answer = refused(error, self._worlds.revision)
         response.answer = conversions.answer_to_msg(answer, asked, perf_counter() - started)
         self._events.publish(
             msg.PlanningEvent(
@@ -161,13 +137,11 @@ class MotionPlannerNode(Node):
         received, started = self.get_clock().now(), perf_counter()
         asked = request.request
         try:
-            pure = conversions.advice_request_from_msg(asked)
-            stop = self._deadline(started, 0.0)
-            advice = self._guarded(lambda: self._current().advise(pure, stop))
+            advice = self._advice(asked)
             response.answer = conversions.advice_to_msg(advice, asked, perf_counter() - started)
         except MotionPlannerError as error:
             response.answer = conversions.advice_error_to_msg(
-                error, asked, self._revision, perf_counter() - started
+                error, asked, self._worlds.revision, perf_counter() - started
             )
         self._events.publish(
             msg.PlanningEvent(
@@ -180,106 +154,67 @@ class MotionPlannerNode(Node):
         )
         return response
 
+    def _answer(self, asked: msg.GeometricRequest) -> GeometricAnswer:
+        planner = self._worlds.current()
+        request = conversions.request_from_msg(asked)
+        with self._turns.take(asked.request_id, self._budget(request.time_budget)) as turn:
+            answer = guarded(lambda: planner.satisfy(request, turn), self.get_logger().error)
+        return as_cancelled(answer) if turn.cancelled else answer
+
+    def _advice(self, asked: msg.AdviceRequest) -> AdviceAnswer:
+        planner = self._worlds.current()
+        request = conversions.advice_request_from_msg(asked)
+        with self._turns.take(asked.request_id, self._budget(0.0)) as turn:
+            return guarded(lambda: planner.advise(request, turn), self.get_logger().error)
+
+    def _cancel(
+        self, request: srv.CancelRequest.Request, response: srv.CancelRequest.Response
+    ) -> srv.CancelRequest.Response:
+        response.cancelled = self._turns.cancel(request.request_id)
+        return response
+
     def _check(
         self, request: srv.CheckPreconditions.Request, response: srv.CheckPreconditions.Response
     ) -> srv.CheckPreconditions.Response:
-        world = self._planner.world if self._planner else None
+        planner = self._worlds.planner
+        world = planner.world if planner else None
         try:
-            result = self._guarded(
+            result = guarded(
                 lambda: check_text(
                     request.preconditions, world, request.source, request.line, request.column
-                )
+                ),
+                self.get_logger().error,
             )
             response.valid, response.assigns = result.valid, result.assigns
             diagnostics = result.diagnostics
         except MotionPlannerError as error:
-            diagnostics = _diagnostics_of(error, request.source)
+            diagnostics = diagnostics_of(error, request.source)
         response.diagnostics = conversions.diagnostics_to_msg(diagnostics)
         return response
 
-    def _set_world(
-        self, request: srv.SetWorld.Request, response: srv.SetWorld.Response
-    ) -> srv.SetWorld.Response:
+    def _sample(
+        self, request: srv.SampleMotion.Request, response: srv.SampleMotion.Response
+    ) -> srv.SampleMotion.Response:
         try:
-            response.revision = self._guarded(lambda: self._use_world(request.yaml, request.source))
-            response.accepted = True
+            world = self._worlds.current().world
+            motion = motion_from_msg(request.motion)
+            rows = guarded(
+                lambda: sampled(world, motion, request.world_revision, request.spacing),
+                self.get_logger().error,
+            )
+            response.path = path_to_msg(rows)
         except MotionPlannerError as error:
-            response.diagnostics = conversions.diagnostics_to_msg(
-                _diagnostics_of(error, request.source)
-            )
+            response.code, response.message = int(error.code), error.message
         return response
 
-    def _get_world(
-        self, _request: srv.GetWorld.Request, response: srv.GetWorld.Response
-    ) -> srv.GetWorld.Response:
-        if self._planner is not None:
-            response.available = True
-            response.world = conversions.world_to_msg(self._planner.world)
-        return response
-
-    # ---- what the services share
-
-    @property
-    def _revision(self) -> str:
-        return self._planner.world.revision if self._planner else ''
-
-    def _current(self) -> MotionPlanner:
-        if self._planner is None:
-            raise MotionPlannerError(
-                Code.NO_WORLD, 'the motion planner has no world yet: call set_world first'
-            )
-        return self._planner
-
-    def _use_world(self, text: str, source: str) -> str:
-        world = read_world(text, source)
-        if world.revision != self._revision:
-            self._planner = MotionPlanner(world, self._settings)
-        self.get_logger().info(
-            f'world {source or "without a name"}, revision {world.revision}: '
-            f'{len(world.objects)} objects, {len(world.obstacles)} obstacles, '
-            f'{len(world.robots)} robots'
-        )
-        return world.revision
-
-    def _deadline(self, started: float, budget: float) -> Callable[[], bool]:
-        end = started + (budget or self._settings.time_budget)
-        return lambda: perf_counter() > end or self.stopping.is_set()
-
-    def _guarded(self, work: Callable[[], Result]) -> Result:
-        """Do ``work``; whatever goes wrong becomes a MotionPlannerError, so the node outlives it."""
-        try:
-            return work()
-        except MotionPlannerError:
-            raise
-        except Stopped as stopped:
-            raise MotionPlannerError(Code.OUT_OF_TIME, 'the time budget ran out') from stopped
-        except Exception as error:
-            self.get_logger().error(traceback.format_exc())
-            raise MotionPlannerError(
-                Code.INTERNAL,
-                f'a fault of the motion planner, please report it with its log: '
-                f'{type(error).__name__}: {error}',
-            ) from error
+    def _budget(self, wanted: float) -> float:
+        return wanted or self._settings.current.time_budget
 
     def _log_answer(self, asked: msg.GeometricRequest, answer: GeometricAnswer) -> None:
         self.get_logger().debug(
             f'{" ".join(asked.action)} alternative {asked.alternative}: {answer.status.name} '
             f'{answer.code.name} {answer.message}'
         )
-
-
-def _diagnostics_of(error: MotionPlannerError, source: str) -> tuple[Diagnostic, ...]:
-    remark = Diagnostic(error.message, source=source, code=error.code)
-    return error.diagnostics or (remark,)
-
-
-def _read_file(path: str) -> str:
-    try:
-        with Path(path).open('rb') as file:
-            content = file.read(4 * LONGEST_TEXT + 4)
-    except OSError as error:
-        raise MotionPlannerError(Code.NO_WORLD, f'{path}: {error.strerror}') from error
-    return content.decode('utf-8', errors='replace')
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -307,23 +242,25 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _serve() -> None:
     node = MotionPlannerNode()
-    executor = SingleThreadedExecutor()
+    executor = RelayExecutor()
     executor.add_node(node)
 
     def spin() -> None:
         while not node.stopping.is_set():
             executor.spin_once(timeout_sec=0.5)
 
-    spinning = threading.Thread(target=spin)
+    spinning = [threading.Thread(target=spin) for _ in range(THREADS)]
     try:
-        spinning.start()
+        for thread in spinning:
+            thread.start()
         node.get_logger().info('ready')
-        while spinning.is_alive():
+        while all(thread.is_alive() for thread in spinning):
             node.stopping.wait(0.5)
     finally:
-        node.stopping.set()
+        node.finish()
         executor.wake()
-        spinning.join()
+        for thread in spinning:
+            thread.join()
         executor.shutdown()
         node.destroy_node()
 

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field, fields
 from math import isfinite
 from typing import Any
 
+from motion_planner_node.paths import DEFAULT_PLANNER, PLANNERS
+
 #: How destinations can be computed.
 DEFAULT_MODE, PAPER_MODE = MODES = ('default', 'paper')
 
@@ -98,6 +100,11 @@ class Parameters:
         'file with the world to start with, as in docs/world.md; empty to wait for set_world',
         read_only=True,
     )
+    map_topic: str = _parameter(
+        '',
+        'topic of a latched nav_msgs/OccupancyGrid to add to each world; empty for none',
+        read_only=True,
+    )
     time_budget: float = _parameter(
         10.0,
         'wall clock for one request that names no budget of its own',
@@ -123,17 +130,32 @@ class Parameters:
     rounds: int = _parameter(
         4, 'rounds of restarts before a request is given up as UNKNOWN', low=1, high=1000
     )
-    paths_per_answer: int = _parameter(
-        6,
-        'paths planned to different destinations before the shortest so far is answered',
-        low=1,
-        high=1000,
-    )
     failures_per_answer: int = _parameter(
-        24,
+        128,
         'destinations without a path before a request is given up as UNKNOWN',
         low=1,
         high=100000,
+    )
+    planner: str = _parameter(
+        DEFAULT_PLANNER,
+        'how paths are planned (docs/motion-planning.md)',
+        choices=tuple(PLANNERS),
+    )
+    path_attitudes: int = _parameter(
+        20000,
+        'attitudes that the default planner looks at in one search; four times as many when it '
+        'looks more closely',
+        low=100,
+        high=1000000,
+    )
+    path_iterations: int = _parameter(
+        2000, 'iterations of a sampling planner in one search', low=10, high=10000000
+    )
+    path_refinements: int = _parameter(
+        2,
+        'times that a better destination is looked for along a path that was found',
+        low=0,
+        high=100,
     )
     alternative_distance: float = _parameter(
         10.0,

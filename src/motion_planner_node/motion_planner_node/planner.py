@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from motion_planner_node.advice.advisor import Advisor
 from motion_planner_node.errors import Diagnostic, MotionPlannerError, Stopped
 from motion_planner_node.language import Preconditions, check, parse
@@ -28,22 +26,20 @@ from motion_planner_node.requests import (
     GeometricRequest,
 )
 from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import Program
+from motion_planner_node.stopping import ShouldStop, never
 from motion_planner_node.world import Scene
 from motion_planner_node.world.model import (
     Bounds,
-    CarModel,
     Circle,
     Polygon,
     World,
     WorldObject,
 )
 
-ShouldStop = Callable[[], bool]
-
-
-def _never() -> bool:
-    return False
+#: Robots whose free space is kept.
+MOST_GROUNDS = 8
 
 
 class MotionPlanner:
@@ -57,7 +53,7 @@ class MotionPlanner:
         self.world = world
         self._parameters = parameters or Parameters()
         self._scene = Scene(world)
-        self._grounds: dict[CarModel, Ground] = {}
+        self._grounds: Cache[Robot, Ground] = Cache(MOST_GROUNDS, self._forget)
         size = self._parameters.cache_size
         self._texts: Cache[str, Preconditions] = Cache(size)
         self._remarks: Cache[str, tuple[Diagnostic, ...]] = Cache(size)
@@ -65,8 +61,19 @@ class MotionPlanner:
         self._streams: Cache[object, Stream] = Cache(size)
         self._advisor = Advisor(world, self._parameters, self._parsed, self._ground)
 
+    def prepare(self) -> None:
+        """Work out what depends on no request, so that none has to wait for it."""
+        for robot in list(self.world.robots.values())[:MOST_GROUNDS]:
+            self._ground(robot)
+
+    def with_parameters(self, parameters: Parameters) -> MotionPlanner:
+        """A planner of the same world with other parameters."""
+        planner = MotionPlanner(self.world, parameters)
+        planner.prepare()
+        return planner
+
     def satisfy(
-        self, request: GeometricRequest, should_stop: ShouldStop = _never
+        self, request: GeometricRequest, should_stop: ShouldStop = never
     ) -> GeometricAnswer:
         """Find an attitude that meets the preconditions, and a motion to it (Algorithm 1).
 
@@ -88,7 +95,7 @@ class MotionPlanner:
                 return answers.assigned(problem, self._ground, request.alternative)
         except MotionPlannerError as error:
             return answers.refused(error, self.world.revision)
-        ground = self._ground(problem.car)
+        ground = self._ground(problem.robot)
         proof = contradiction(problem) or blocked_start(problem, ground)
         if proof:
             return answers.impossible(problem, ground, proof)
@@ -103,22 +110,24 @@ class MotionPlanner:
     ) -> GeometricAnswer:
         state = tuple(problem.state.items())
         mode = request.mode or self._parameters.mode
-        key = (request.preconditions, problem.agent, state, request.seed, mode)
+        planner = request.planner or self._parameters.planner
+        key = (request.preconditions, problem.agent, state, request.seed, mode, planner)
         stream_of = PaperStream if mode == PAPER_MODE else Stream
         stream = self._streams.get(
-            key, lambda: stream_of(problem, ground, self._parameters, request.seed)
+            key, lambda: stream_of(problem, ground, self._parameters, request.seed, planner)
         )
         try:
-            found = stream.find(request.alternative, should_stop)
+            with problem.program.broken_off_by(should_stop):
+                found = stream.find(request.alternative, should_stop)
+                if found:
+                    return answers.found(problem, ground, found)
+                if stream.proof:
+                    return answers.impossible(problem, ground, stream.proof)
+                return answers.exhausted(problem, ground, stream.tried, request.alternative)
         except Stopped:
             return answers.out_of_time(problem, ground, stream.tried)
-        if found:
-            return answers.found(problem, ground, found)
-        if stream.proof:
-            return answers.impossible(problem, ground, stream.proof)
-        return answers.exhausted(problem, ground, stream.tried, request.alternative)
 
-    def advise(self, request: AdviceRequest, should_stop: ShouldStop = _never) -> AdviceAnswer:
+    def advise(self, request: AdviceRequest, should_stop: ShouldStop = never) -> AdviceAnswer:
         """Say what each candidate would cost from here, and which to try first.
 
         :raises MotionPlannerError: when there can be no advice at all, as for `satisfy`
@@ -133,10 +142,13 @@ class MotionPlanner:
     def _parsed(self, text: str) -> Preconditions:
         return self._texts.get(text, lambda: parse(text))
 
-    def _ground(self, car: CarModel) -> Ground:
-        if car not in self._grounds:
-            self._grounds[car] = Ground(self._scene, car)
-        return self._grounds[car]
+    def _forget(self, _ground: Ground) -> None:
+        """Drop what was worked out on some ground, so that no forgotten one is kept by it."""
+        self._streams.clear()
+        self._advisor.forget()
+
+    def _ground(self, robot: Robot) -> Ground:
+        return self._grounds.get(robot, lambda: Ground(self._scene, robot))
 
 
 def warm_up() -> None:
@@ -145,7 +157,7 @@ def warm_up() -> None:
     Takes some ten seconds the first time and about one when the kernels are cached on disk.
     """
     agent, here = 'robot', Attitude(20.0, 10.0, 0.0)
-    car = CarModel(agent, wheelbase=1.0, max_steering_angle=0.5, radius=1.0, speed=1.0)
+    car = Robot(agent, wheelbase=1.0, max_steering_angle=0.5, radius=1.0, speed=1.0)
     wall = Polygon('wall', ((40.0, 0.0), (44.0, 0.0), (44.0, 40.0), (40.0, 40.0)))
     tree = Circle('tree', (60.0, 50.0), 3.0)
     goal = WorldObject('goal', {'x': 60.0, 'y': 10.0})
@@ -153,6 +165,6 @@ def warm_up() -> None:
     planner = MotionPlanner(World('', '', bounds, {'goal': goal}, (wall, tree), {agent: car}))
     text = '((agent robot)(object goal)(distance(robot, goal) <= 5))'
     planner.satisfy(GeometricRequest(text, {agent: here}))
-    planner.advise(AdviceRequest((text,), {agent: here}))
+    planner.advise(AdviceRequest((text,), {agent: here}, pairwise=True))
     seen = f'{text[:-1]}(visible(robot, goal))(clearance(robot) >= 2))'
     planner.satisfy(GeometricRequest(seen, {agent: here}))

@@ -14,7 +14,8 @@ from motion_planner_node.robots.motion import Attitude, GeometricState, Motion
 class GeometricRequest:
     """Can these preconditions be met from this state, and how does the robot get there?
 
-    ``mode`` is how destinations are computed, as the parameter of that name; empty for its value.
+    ``mode`` is how destinations are computed and ``planner`` how paths are planned, as the
+    parameters of these names; empty for their values.
     """
 
     preconditions: str
@@ -27,6 +28,7 @@ class GeometricRequest:
     time_budget: float = 0.0
     request_id: str = ''
     mode: str = ''
+    planner: str = ''
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +52,11 @@ class Attempt:
 
 @dataclass(frozen=True, slots=True)
 class GeometricAnswer:
-    """What was found out; ``end``, ``motion`` and ``length`` [m] hold when FOUND."""
+    """What was found out; ``end``, ``motion`` and what is said of it hold when FOUND.
+
+    ``duration`` [s] is that of the motion at the robot's speeds, ``clearance`` [m] the least distance
+    that its body has from obstacles and the edge of the map on the way.
+    """
 
     code: Code
     message: str = ''
@@ -61,6 +67,8 @@ class GeometricAnswer:
     end: GeometricState = field(default_factory=dict)
     assigned: bool = False
     motion: Motion | None = None
+    duration: float = 0.0
+    clearance: float = 0.0
     residuals: tuple[Residual, ...] = ()
     attempts: tuple[Attempt, ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()
@@ -79,13 +87,17 @@ class GeometricAnswer:
 
 @dataclass(frozen=True, slots=True)
 class AdviceRequest:
-    """What would each of these ground precondition texts cost from ``start``?"""
+    """What would each of these ground precondition texts cost from ``start``?
+
+    With ``pairwise`` also what each would cost after each other one.
+    """
 
     preconditions: tuple[str, ...]
     start: GeometricState
     world_revision: str = ''
     seed: int = 0
     request_id: str = ''
+    pairwise: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,8 +115,13 @@ class CandidateAdvice:
 
 @dataclass(frozen=True, slots=True)
 class AdviceAnswer:
-    """Advice on every candidate, and the order in which to try them, impossible ones last."""
+    """Advice on every candidate, and the order in which to try them, impossible ones last.
+
+    The pairwise costs [m] are matrices row by row, empty unless asked for; see `advice.pairwise`.
+    """
 
     candidates: tuple[CandidateAdvice, ...]
     order: tuple[int, ...]
     world_revision: str = ''
+    pairwise_lower_bounds: tuple[float, ...] = ()
+    pairwise_estimates: tuple[float, ...] = ()

@@ -15,7 +15,7 @@ from geohtn_msgs import msg, srv
 from hypothesis import given
 from hypothesis import strategies as st
 
-from motion_planner_node import conversions
+from motion_planner_node import conversions, motion_conversions
 from motion_planner_node.codes import AttemptResult, Code, Scope
 from motion_planner_node.errors import Diagnostic, MotionPlannerError
 from motion_planner_node.node import MotionPlannerNode
@@ -165,7 +165,7 @@ def node() -> Iterator[MotionPlannerNode]:
 def test_a_fault_inside_a_request_is_answered_and_outlived(
     node: MotionPlannerNode, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    accepted = node._set_world(srv.SetWorld.Request(yaml=WORLD), srv.SetWorld.Response())
+    accepted = node._worlds._set_world(srv.SetWorld.Request(yaml=WORLD), srv.SetWorld.Response())
     assert accepted.accepted
 
     def broken(*_: object) -> None:
@@ -206,3 +206,46 @@ def test_a_request_arrives_as_it_was_sent() -> None:
     assert request.start == {'r': Attitude(1.0, 2.0, 0.5)}
     assert (request.preconditions, request.agent, request.mode) == ('((agent r))', 'r', 'paper')
     assert (request.alternative, request.seed, request.time_budget) == (3, 7, 2.0)
+
+
+def test_every_robot_becomes_a_message_with_all_of_its_model() -> None:
+    text = """
+bounds: [0, 0, 80, 60]
+robots:
+  truck: {model: reverse_car, wheelbase: 3, max_steering_angle: 0.5, speed: 2, safety_margin: 0.25,
+          footprint: [[-1, -1], [4, -1], [4, 1], [-1, 1]]}
+  vacuum: {model: differential, radius: 0.5, speed: 1, turning_speed: 2,
+           start: {x: 5, y: 5, heading: 0}}
+"""
+    truck, vacuum = conversions.world_to_msg(read_world(text, '')).robots
+    assert (truck.model, truck.wheelbase, truck.safety_margin) == ('reverse_car', 3.0, 0.25)
+    assert [(corner.x, corner.y) for corner in truck.footprint][:2] == [(-1.0, -1.0), (4.0, -1.0)]
+    assert (truck.turning_speed, list(truck.start)) == (0.0, [])
+    assert (vacuum.model, vacuum.turning_speed, vacuum.wheelbase) == ('differential', 2.0, 0.0)
+    assert (vacuum.radius, list(vacuum.footprint), vacuum.start[0].x) == (0.5, [], 5.0)
+
+
+def test_a_motion_survives_its_message() -> None:
+    segments = (
+        Segment(0.5, -2.0),
+        Segment(0.0, 3.0, direction=-1.0),
+        Segment(0.0, 0.0, turn=2.0),
+    )
+    motion = Motion('r', Attitude(1.0, 2.0, 3.0), segments)
+    sent = motion_conversions.motion_to_msg(motion, 7.0, 0.5)
+    assert (sent.length, sent.duration, sent.clearance) == (5.0, 7.0, 0.5)
+    assert motion_conversions.motion_from_msg(sent) == motion
+    with pytest.raises(MotionPlannerError) as refused:
+        motion_conversions.motion_from_msg(msg.Motion(start=msg.AgentState(x=nan)))
+    assert refused.value.code is Code.INVALID_START
+
+
+def test_a_path_has_its_times_as_stamps() -> None:
+    rows = np.array([[1.0, 2.0, pi / 2, 0.0], [3.0, 4.0, pi, 2.25], [3.0, 4.0, pi, 1e12]])
+    path = motion_conversions.path_to_msg(rows)
+    assert path.header.frame_id == 'map'
+    assert [pose.header.stamp.sec for pose in path.poses] == [0, 2, 2**31 - 1]
+    assert path.poses[1].header.stamp.nanosec == 250_000_000
+    first = path.poses[0].pose
+    assert (first.position.x, first.position.y) == (1.0, 2.0)
+    assert 2.0 * np.arctan2(first.orientation.z, first.orientation.w) == pytest.approx(pi / 2)

@@ -6,103 +6,31 @@ import os
 import signal
 import subprocess
 import sys
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from math import inf, nan
 from pathlib import Path
 from typing import Any
 
 import pytest
-import rclpy
 from geohtn_msgs import msg, srv
 from rcl_interfaces.srv import DescribeParameters, SetParameters
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 
-PACKAGE = Path(__file__).resolve().parents[1]
-ROVER = PACKAGE.parent / 'interface_node' / 'missions' / 'rover' / 'world.yaml'
+from support.motion_planner import (
+    DEADLINE,
+    DOMAIN,
+    PACKAGE,
+    ROVER,
+    START,
+    Asker,
+    start_node,
+    wait_until_ready,
+)
+
 PHOTO = (
     '((agent rover0)(object {0})(distance(rover0, {0}) >= 50)(distance(rover0, {0}) <= 100)'
     '(rel_angle(rover0, {0}) = cos-and-sin(pi/2)))'
 )
-DEADLINE = 60.0
-DOMAIN = 1 + os.getpid() % 200
-START = msg.AgentState(agent='rover0', x=20.0, y=20.0, heading=0.0)
-
-
-def start_node(*arguments: str) -> subprocess.Popen[str]:
-    environment = os.environ | {
-        'PYTHONPATH': os.pathsep.join([str(PACKAGE), os.environ.get('PYTHONPATH', '')]),
-        'ROS_DOMAIN_ID': str(DOMAIN),
-        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-        'PYTHONUNBUFFERED': '1',
-    }
-    return subprocess.Popen(
-        [sys.executable, '-m', 'motion_planner_node.node', *arguments],
-        env=environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-    )
-
-
-def wait_until_ready(process: subprocess.Popen[str]) -> None:
-    assert process.stdout is not None
-    lines = []
-    for line in process.stdout:
-        lines.append(line)
-        if line.rstrip().endswith(': ready'):
-            return
-    raise AssertionError('the node ended before it was ready:\n' + ''.join(lines))
-
-
-class Asker:
-    """A client of the node; every wait has a deadline."""
-
-    def __init__(self) -> None:
-        self.context = rclpy.Context()
-        rclpy.init(context=self.context, domain_id=DOMAIN)
-        self.node = rclpy.create_node('asker', context=self.context, namespace='tests')
-        self.executor = SingleThreadedExecutor(context=self.context)
-        self.executor.add_node(self.node)
-        self.events: list[Any] = []
-        self.node.create_subscription(
-            msg.PlanningEvent, '/planning_events', self.events.append, 100
-        )
-
-    def close(self) -> None:
-        self.executor.shutdown()
-        self.node.destroy_node()
-        rclpy.shutdown(context=self.context)
-
-    def spin_until(self, done: Callable[[], bool]) -> None:
-        end = time.monotonic() + DEADLINE
-        while not done():
-            assert time.monotonic() < end, 'the node did not answer in time'
-            self.executor.spin_once(timeout_sec=0.2)
-
-    def call(self, kind: Any, name: str, **fields: Any) -> Any:
-        client = self.node.create_client(kind, name)
-        try:
-            assert client.wait_for_service(timeout_sec=DEADLINE)
-            future = client.call_async(kind.Request(**fields))
-            self.spin_until(future.done)
-            return future.result()
-        finally:
-            self.node.destroy_client(client)
-
-    def satisfy(self, preconditions: str, **fields: Any) -> Any:
-        fields = {'start': [START]} | fields
-        request = msg.GeometricRequest(preconditions=preconditions, **fields)
-        return self.call(srv.SatisfyPreconditions, '/satisfy_preconditions', request=request).answer
-
-    def advise(self, *preconditions: str, **fields: Any) -> Any:
-        fields = {'start': [START]} | fields
-        request = msg.AdviceRequest(preconditions=list(preconditions), **fields)
-        return self.call(srv.Advise, '/advise', request=request).answer
-
-    def set_world(self, text: str) -> Any:
-        return self.call(srv.SetWorld, '/set_world', source='world.yaml', yaml=text)
 
 
 @pytest.fixture(scope='module')
@@ -179,6 +107,20 @@ def test_a_request_is_answered_and_published(rover: Asker) -> None:
         first.answered.sec,
         first.answered.nanosec,
     )
+
+
+def test_a_motion_is_told_as_poses(rover: Asker) -> None:
+    motion = rover.satisfy(PHOTO.format('location1')).motion
+    response = rover.call(srv.SampleMotion, '/sample_motion', motion=motion, spacing=2.0)
+    assert response.code == msg.GeometricAnswer.NONE
+    poses = response.path.poses
+    assert len(poses) > motion.length / 2.0
+    assert poses[0].pose.position.x == START.x
+    assert poses[-1].header.stamp.sec == int(motion.duration)
+    motion.agent = 'ghost'
+    refused = rover.call(srv.SampleMotion, '/sample_motion', motion=motion, spacing=2.0)
+    assert refused.code == msg.GeometricAnswer.UNKNOWN_AGENT
+    assert 'ghost' in refused.message
 
 
 @pytest.mark.parametrize(

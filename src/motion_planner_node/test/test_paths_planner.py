@@ -89,7 +89,7 @@ def random_free(scene: Scene, rng: np.random.Generator) -> Attitude:
     while True:
         low, high = [bounds.x_min, bounds.y_min, -pi], [bounds.x_max, bounds.y_max, pi]
         row = rng.uniform(low, high)
-        if scene.is_free([row], CAR.radius)[0]:
+        if scene.is_free([row], CAR.body)[0]:
             return Attitude(*(float(value) for value in row))
 
 

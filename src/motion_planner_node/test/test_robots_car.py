@@ -10,15 +10,14 @@ from numpy.typing import NDArray
 from ompl import base
 
 from motion_planner_node.robots.arcs import wrap_angle
-from motion_planner_node.robots.car import (
-    dubins_lengths,
-    dubins_words,
+from motion_planner_node.robots.driving import (
     end_of,
     integrate,
-    merged,
     sample,
+    shortest_between,
+    words_between,
 )
-from motion_planner_node.robots.motion import Attitude, Motion, Segment
+from motion_planner_node.robots.motion import Attitude, Motion, Segment, merged
 from motion_planner_node.world.model import CarModel
 
 CAR = CarModel('rover', wheelbase=8.0, max_steering_angle=0.5, radius=5.0, speed=2.0)
@@ -71,7 +70,7 @@ def test_closed_form_agrees_with_the_differential_equations(
 @settings(deadline=None)
 @given(attitudes(), attitudes())
 def test_every_word_ends_where_it_should(start: Attitude, end: Attitude) -> None:
-    words = dubins_words(start, end, CAR)
+    words = words_between(start, end, CAR)
     assert 1 <= len(words) <= 6
     lengths = [sum(segment.length for segment in word) for word in words]
     assert lengths == sorted(lengths)
@@ -87,7 +86,7 @@ def test_shortest_word_is_as_short_as_ompl_says() -> None:
     rng = np.random.default_rng(7)
     for scale in (0.1, 1.0, 10.0, 50.0, 500.0):
         rows = rng.uniform(-1.0, 1.0, (500, 2, 3)) * [scale, scale, pi]
-        ours = dubins_lengths(rows[:, 0], rows[:, 1], CAR)
+        ours = shortest_between(rows[:, 0], rows[:, 1], CAR)
         for pair, length in zip(rows, ours, strict=True):
             for state, (x, y, heading) in zip(states, pair, strict=True):
                 state.setXY(x, y)
@@ -99,8 +98,8 @@ def test_shortest_word_is_as_short_as_ompl_says() -> None:
 @given(attitudes(), st.lists(attitudes(), min_size=1, max_size=5))
 def test_lengths_of_many_are_those_of_each(start: Attitude, ends: list[Attitude]) -> None:
     rows = np.array([[end.x, end.y, end.heading] for end in ends])
-    lengths = dubins_lengths(np.array([start.x, start.y, start.heading]), rows, CAR)
-    shortest = [dubins_words(start, end, CAR)[0] for end in ends]
+    lengths = shortest_between(np.array([start.x, start.y, start.heading]), rows, CAR)
+    shortest = [words_between(start, end, CAR)[0] for end in ends]
     expected = [sum(segment.length for segment in word) for word in shortest]
     assert lengths == pytest.approx(expected, abs=1e-9)
 
@@ -113,7 +112,7 @@ def test_rounding_never_costs_a_full_circle(start: Attitude, ahead: float, turn:
         start.y + ahead * sin(start.heading),
         start.heading + turn,
     )
-    length = sum(segment.length for segment in dubins_words(start, end, CAR)[0])
+    length = sum(segment.length for segment in words_between(start, end, CAR)[0])
     assert length == pytest.approx(ahead, abs=1e-5)
 
 

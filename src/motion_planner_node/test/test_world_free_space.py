@@ -5,10 +5,12 @@ from math import hypot
 import numpy as np
 import pytest
 
+from motion_planner_node.robots.body import body_of
 from motion_planner_node.world import Scene
 from motion_planner_node.world.model import Bounds, Circle, Obstacle, Polygon, World
 
 RADIUS = 5.0
+BODY = body_of((), RADIUS, 0.0)
 
 
 WHOLE = Bounds(0, 0, 800, 600)
@@ -26,7 +28,7 @@ def walls_with_gap(gap: float) -> tuple[Polygon, Polygon]:
 
 @pytest.mark.parametrize(('gap', 'open_'), [(0.0, False), (9.0, False), (9.8, False), (10.2, True)])
 def test_a_gap_narrower_than_the_robot_is_closed(gap: float, open_: bool) -> None:
-    space = scene_of(*walls_with_gap(gap)).free_space(RADIUS)
+    space = scene_of(*walls_with_gap(gap)).free_space(BODY)
     west, east = space.component_of(100, 100), space.component_of(700, 500)
     assert west >= 0
     assert east >= 0
@@ -42,7 +44,7 @@ def test_every_free_place_is_in_an_open_cell() -> None:
     scene = scene_of(*discs)
     points = rng.uniform([0, 0], [800, 600], (20000, 2))
     free = scene.clearance(points) >= RADIUS
-    components = scene.free_space(RADIUS).components_of(points[:, 0], points[:, 1])
+    components = scene.free_space(BODY).components_of(points[:, 0], points[:, 1])
     assert free.any()
     assert (components[free] >= 0).all()
 
@@ -55,7 +57,7 @@ def test_neighbours_with_room_between_them_are_in_one_component() -> None:
         for i, (x, y) in enumerate(rng.uniform([0, 0], [800, 600], (40, 2)))
     ]
     scene = scene_of(*discs)
-    space = scene.free_space(RADIUS)
+    space = scene.free_space(BODY)
     seen = 0
     for start, end in rng.uniform([0, 0], [800, 600], (2000, 2, 2)):
         line = start + np.linspace(0.0, 1.0, 200)[:, None] * (end - start)
@@ -72,7 +74,7 @@ def test_a_walled_in_place_is_a_component_of_its_own() -> None:
         Polygon('west', ((300, 200), (310, 200), (310, 400), (300, 400))),
         Polygon('east', ((490, 200), (500, 200), (500, 400), (490, 400))),
     ]
-    space = scene_of(*ring).free_space(RADIUS)
+    space = scene_of(*ring).free_space(BODY)
     inside, outside = space.component_of(400, 300), space.component_of(100, 100)
     assert inside not in (-1, outside)
     assert space.component_of(320, 220) == inside
@@ -83,7 +85,7 @@ def test_a_walled_in_place_is_a_component_of_its_own() -> None:
 
 
 def test_distance_in_the_open_is_the_straight_one() -> None:
-    field = scene_of().free_space(RADIUS).distance_from(100, 100)
+    field = scene_of().free_space(BODY).distance_from(100, 100)
     xs, ys = np.meshgrid(np.linspace(10, 790, 40), np.linspace(10, 590, 30))
     straight = np.hypot(xs - 100, ys - 100)
     assert field.at(xs, ys).shape == xs.shape
@@ -93,13 +95,13 @@ def test_distance_in_the_open_is_the_straight_one() -> None:
 
 def test_distance_goes_round_a_wall() -> None:
     wall = Polygon('wall', ((400, 0), (410, 0), (410, 500), (400, 500)))
-    field = scene_of(wall).free_space(RADIUS).distance_from(300, 100)
+    field = scene_of(wall).free_space(BODY).distance_from(300, 100)
     true = hypot(95, 405) + 20 + hypot(85, 405)
     assert float(field.at(500, 100)) == pytest.approx(true, rel=0.03)
 
 
 def test_fields_are_kept_and_places_outside_the_map_are_not_free() -> None:
-    space = scene_of().free_space(RADIUS)
+    space = scene_of().free_space(BODY)
     assert space.distance_from(10, 20) is space.distance_from(10, 20)
     assert space.component_of(-1, 20) == -1
     assert space.component_of(float('nan'), 20) == -1
@@ -107,7 +109,7 @@ def test_fields_are_kept_and_places_outside_the_map_are_not_free() -> None:
 
 
 def test_a_robot_larger_than_the_map_is_nowhere_free() -> None:
-    space = scene_of(bounds=Bounds(0, 0, 8, 1e4)).free_space(RADIUS)
+    space = scene_of(bounds=Bounds(0, 0, 8, 1e4)).free_space(BODY)
     assert len(space.cells) == 0
     assert space.component_of(4, 50) == -1
 
@@ -124,7 +126,7 @@ def test_many_obstacles_close_the_same_cells_as_each_alone() -> None:
         for i, (x, y) in enumerate(rng.uniform([0, 0], [700, 500], (6, 2)).tolist())
     ]
     points = rng.uniform([0, 0], [800, 600], (20000, 2)).T
-    alone = [scene_of(obstacle).free_space(RADIUS).components_of(*points) for obstacle in obstacles]
-    together = scene_of(*obstacles).free_space(RADIUS).components_of(*points)
+    alone = [scene_of(obstacle).free_space(BODY).components_of(*points) for obstacle in obstacles]
+    together = scene_of(*obstacles).free_space(BODY).components_of(*points)
     closed = (np.array(alone) < 0).any(axis=0)
     assert (together[closed] < 0).all()

@@ -11,7 +11,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from motion_planner_node.robots.car import sample
+from motion_planner_node.robots.driving import sample
 from motion_planner_node.robots.motion import Attitude, Motion, Segment
 from motion_planner_node.world import MAP_EDGE, Scene
 from motion_planner_node.world.model import Bounds, CarModel, Circle, Obstacle, Polygon, World
@@ -163,7 +163,7 @@ def test_a_disc_may_touch() -> None:
     along_the_wall = Motion('rover', Attitude(45, 10, pi / 2), (Segment(0.0, 80.0),))
     assert scene.motion_is_free(along_the_wall, CAR)
     places = np.array([[45, 10, 0], [45.001, 10, 0], [-15, 0, 0], [-15.001, 0, 0]])
-    assert scene.is_free(places, 5.0).tolist() == [True, False, True, False]
+    assert scene.is_free(places, CAR.body).tolist() == [True, False, True, False]
 
 
 def test_a_point_robot_does_not_pass_through_a_corner() -> None:

@@ -11,6 +11,7 @@ import pytest
 import yaml
 
 from motion_planner_node.errors import MotionPlannerError
+from motion_planner_node.robots.registry import MODELS
 from motion_planner_node.world import read_world
 
 TOP = Path(__file__).parents[3]
@@ -66,6 +67,8 @@ def accepts(schema: dict[str, Any], value: Any) -> bool:
         return False
     if 'not' in schema and accepts(schema['not'], value):
         return False
+    if not all(accepts(rule, value) for rule in schema.get('allOf', [])):
+        return False
     return 'oneOf' not in schema or sum(accepts(rule, value) for rule in schema['oneOf']) == 1
 
 
@@ -108,6 +111,13 @@ def test_the_world_of_the_mission_meets_the_schema() -> None:
         ('radius: 5.0', 'radius: -1.0'),
         ('speed: 2.0', ''),
         ('speed: 2.0', 'speed: 2.0\n    start: {x: 20, y: 20}'),
+        ('radius: 5.0', 'footprint: [[-1, -1], [1, -1]]'),
+        ('radius: 5.0', 'footprint: [[-1, -1], [1, -1], [1, 1]]\n    radius: 5.0'),
+        ('radius: 5.0', ''),
+        ('speed: 2.0', 'speed: 2.0\n    safety_margin: -1.0'),
+        ('speed: 2.0', 'speed: 2.0\n    turning_speed: 1.0'),
+        ('model: car', 'model: differential'),
+        ('wheelbase: 8.0', ''),
     ],
 )
 def test_reader_and_schema_refuse_the_same(old: str, new: str) -> None:
@@ -136,6 +146,42 @@ def test_reader_and_schema_refuse_the_same_regions(old: str, new: str) -> None:
     assert not agree(ROVER + DOCK.replace(old, new, 1))
 
 
+@pytest.mark.parametrize(
+    'text',
+    [
+        'objects: {}',
+        'map:',
+        'bounds: [0, 0, 1, 1]\nmap:',
+        'map: [a.yaml]',
+        'map: {unknown: free}',
+        'map: {file: a.yaml, unknown: maybe}',
+        'map: {file: a.yaml, known: free}',
+        'bounds: [0, 0, 1, 1]\nobstacles: [{geojson: a, name: b}]',
+        'bounds: [0, 0, 1, 1]\nobstacles: [{geojson: 7}, {geojson: []}]',
+        'bounds: [0, 0, 1, 1]\nregions: [{geojson: a, name: b}]',
+        'bounds: [0, 0, 1, 1]\nregions: [{geojson: a, circle: {center: [1, 2], radius: 3}}]',
+    ],
+)
+def test_reader_and_schema_refuse_the_same_files(text: str) -> None:
+    assert not agree(text)
+
+
+def test_reader_and_schema_accept_files(tmp_path: Path) -> None:
+    square = [[0, 0], [1, 0], [1, 1], [0, 0]]
+    polygon = {'type': 'Polygon', 'coordinates': [square]}
+    feature = {'type': 'Feature', 'properties': {'name': 'dock'}, 'geometry': polygon}
+    (tmp_path / 'a.geojson').write_text(json.dumps(feature))
+    (tmp_path / 'a.yaml').write_text('image: a.pgm\nresolution: 1\norigin: [0, 0, 0]\n')
+    (tmp_path / 'a.pgm').write_bytes(b'P5 1 1 255\n\xff')
+    for text in (
+        'map: a.yaml',
+        'map: {file: a.yaml, unknown: free}\nbounds: [0, 0, 2, 2]',
+        'map: a.yaml\nobstacles: [{geojson: a.geojson}]\nregions: [{geojson: a.geojson}]',
+    ):
+        assert accepts(SCHEMA, yaml.safe_load(text))
+        assert read_world(text, str(tmp_path / 'world.yaml')).map
+
+
 def test_reader_and_schema_accept_the_same() -> None:
     assert agree('bounds: [0, 0, 1, 1]')
     assert agree('bounds: [0, 0, 1, 1]\nobjects:\nobstacles:\nrobots:\nregions:\n')
@@ -143,6 +189,18 @@ def test_reader_and_schema_accept_the_same() -> None:
     assert agree(ROVER + 'regions: [{name: dock, circle: {center: [1, 2], radius: 3}}]\n')
     assert agree(ROVER.replace('{x: 20, y: 20}', '{x: 20, y: 20, height: 3}'))
     assert agree(ROVER + '    start: {x: 20, y: 20, heading: 7}\n')
+
+
+def test_reader_and_schema_accept_every_model_and_footprint() -> None:
+    shapes = ('radius: 1', 'footprint: [[-1, -1], [2, -1], [2, 1], [-1, 1]]')
+    steering = 'wheelbase: 1, max_steering_angle: 0.5'
+    commands = {'car': steering, 'reverse_car': steering}
+    commands |= dict.fromkeys(('differential', 'omnidirectional'), 'turning_speed: 1')
+    assert set(commands) == set(MODELS)
+    for model, command in commands.items():
+        for shape in shapes:
+            robot = f'{{model: {model}, {command}, {shape}, speed: 1, safety_margin: 0.5}}'
+            assert agree(f'bounds: [0, 0, 9, 9]\nrobots: {{r: {robot}}}\n'), robot
 
 
 def keys_of(schema: dict[str, Any]) -> set[str]:

@@ -1,15 +1,17 @@
-"""The motion planner as the search sees it, behind its three services."""
+"""The motion planner as the search sees it, behind its services."""
 
 from __future__ import annotations
 
 import threading
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from itertools import count
 from typing import Any
+from uuid import uuid4
 
 from geohtn_msgs.msg import AdviceRequest, GeometricRequest
-from geohtn_msgs.srv import Advise, CheckPreconditions, SatisfyPreconditions
+from geohtn_msgs.srv import Advise, CancelRequest, CheckPreconditions, SatisfyPreconditions
 from rclpy.client import Client
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
@@ -26,18 +28,24 @@ from task_planner_node.oracle import Advice, Answer, Query, TextCheck, Token
 from task_planner_node.parameters import Parameters
 
 POLL = 0.05
+#: Looks between two questions whether the motion planner is still there, and questions without an
+#: answer after which it is given up: it answers in milliseconds while it works on a request.
+LOOKS, SILENT_QUESTIONS = 10, 8
+#: A text that is checked in no time.
+QUESTION = CheckPreconditions.Request()
 
 
 class MotionPlannerClient(Node):
     """Clients with an executor and a thread of their own: calls from any thread, fast and without deadlock.
 
-    Clients: satisfy_preconditions, advise, check_preconditions.
+    Clients: satisfy_preconditions, advise, cancel_request, check_preconditions.
     """
 
     def __init__(self, context: Context) -> None:
         super().__init__('task_planner_client', context=context, start_parameter_services=False)
         self.satisfy = self.create_client(SatisfyPreconditions, 'satisfy_preconditions')
         self.advise = self.create_client(Advise, 'advise')
+        self.cancel = self.create_client(CancelRequest, 'cancel_request')
         self.check = self.create_client(CheckPreconditions, 'check_preconditions')
         self._spinner = SingleThreadedExecutor(context=context)
         self._spinner.add_node(self)
@@ -57,11 +65,40 @@ class MotionPlannerClient(Node):
         self.destroy_node()
 
 
+class Pulse:
+    """Whether the motion planner is alive, long before the middleware misses a process that was killed."""
+
+    def __init__(self, check: Client) -> None:
+        self._check = check
+        self._questions: list[Any] = []
+        self._looks = self._silent = 0
+
+    def beats(self) -> bool:
+        """Whether some of the last questions were answered; asks the next one every few looks."""
+        self._looks += 1
+        if self._looks % LOOKS:
+            return True
+        if len(self._questions) > len(waiting := [q for q in self._questions if not q.done()]):
+            self._silent = 0
+        elif waiting:
+            self._silent += 1
+        self._questions = waiting
+        if self._check.service_is_ready():
+            self._questions.append(self._check.call_async(QUESTION))
+        return self._silent < SILENT_QUESTIONS
+
+    def close(self) -> None:
+        """Expect no more answers."""
+        for question in self._questions:
+            self._check.remove_pending_request(question)
+
+
 @dataclass(frozen=True)
 class RemoteOracle:
     """The Oracle of one mission.
 
-    ``should_stop`` ends a wait with Cancelled, ``deadline`` (time.monotonic) with LimitReached.
+    ``should_stop`` ends a wait with Cancelled, ``deadline`` (time.monotonic) with LimitReached.  A request
+    that is not waited for any more is cancelled.
     """
 
     client: MotionPlannerClient
@@ -71,6 +108,8 @@ class RemoteOracle:
     seed: int
     deadline: float
     should_stop: Callable[[], bool]
+    _name: str = field(default_factory=lambda: uuid4().hex[:8])
+    _numbers: count[int] = field(default_factory=count)
 
     def check(self, text: str, source: str, line: int, column: int) -> TextCheck:
         """Oracle.check."""
@@ -84,7 +123,7 @@ class RemoteOracle:
     def satisfy(self, query: Query) -> Answer:
         """Oracle.satisfy."""
         request = GeometricRequest(
-            request_id=f'{self.mission}:{query.alternative}:{" ".join(query.action)}',
+            request_id=self._request_id(),
             mission=self.mission,
             action=list(query.action),
             start=states_from_token(query.start),
@@ -94,13 +133,15 @@ class RemoteOracle:
             seed=self.seed,
             time_budget=self.parameters.request_time_budget,
         )
-        response = self._call(self.client.satisfy, SatisfyPreconditions.Request(request=request))
+        response = self._call(
+            self.client.satisfy, SatisfyPreconditions.Request(request=request), request.request_id
+        )
         return answer_from_message(response.answer)
 
     def advise(self, start: Token, preconditions: Sequence[str]) -> Advice:
         """Oracle.advise."""
         request = AdviceRequest(
-            request_id=f'{self.mission}:advice:{len(preconditions)}',
+            request_id=self._request_id(),
             mission=self.mission,
             start=states_from_token(start),
             preconditions=list(preconditions),
@@ -108,10 +149,16 @@ class RemoteOracle:
             world_revision=self.world_revision,
             seed=self.seed,
         )
-        response = self._call(self.client.advise, Advise.Request(request=request))
+        response = self._call(
+            self.client.advise, Advise.Request(request=request), request.request_id
+        )
         return advice_from_message(response.answer)
 
-    def _call(self, client: Client, request: Any) -> Any:
+    def _request_id(self) -> str:
+        """An id that no other request has, for it may have to be cancelled."""
+        return f'{self.mission}:{self._name}:{next(self._numbers)}'
+
+    def _call(self, client: Client, request: Any, request_id: str = '') -> Any:
         self._wait_for_service(client)
         done = threading.Event()
         future = client.call_async(request)
@@ -119,20 +166,24 @@ class RemoteOracle:
         patience = self.parameters.request_time_budget + self.parameters.service_timeout
         began = time.monotonic()
         lost = began
+        pulse = Pulse(self.client.check)
         try:
             while not done.wait(POLL):
                 self._check()
                 now = time.monotonic()
                 if client.service_is_ready():
                     lost = now
-                if now - began > patience or now - lost > POLL * 10:
+                if now - began > patience or now - lost > POLL * 10 or not pulse.beats():
                     raise GeometryUnavailable(
                         f'the motion planner (service {client.srv_name}) did not answer within '
                         f'{now - began:.1f} s: it is stuck or was stopped'
                     )
         finally:
+            pulse.close()
             if not done.is_set():
                 client.remove_pending_request(future)
+                if request_id and self.client.cancel.service_is_ready():
+                    self.client.cancel.call_async(CancelRequest.Request(request_id=request_id))
         return future.result()
 
     def _wait_for_service(self, client: Client) -> None:

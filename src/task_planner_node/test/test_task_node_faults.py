@@ -18,7 +18,13 @@ import pytest
 import rclpy
 from geohtn_msgs.action import PlanTasks
 from geohtn_msgs.msg import AgentState, GeometricAnswer, PlanningOptions, SourceText
-from geohtn_msgs.srv import Advise, CheckPreconditions, Explain, SatisfyPreconditions
+from geohtn_msgs.srv import (
+    Advise,
+    CancelRequest,
+    CheckPreconditions,
+    Explain,
+    SatisfyPreconditions,
+)
 from rclpy.action import ActionClient
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
@@ -35,10 +41,16 @@ ROVER = Path(__file__).parents[2] / 'interface_node' / 'missions' / 'rover'
 
 
 class TinyMotionPlanner(Node):
-    """Finds everything at once, or, when ``stuck``, answers no request before it is released."""
+    """Finds everything at once, or, when ``stuck``, answers no request before it is released.
 
-    def __init__(self, context: Context, stuck: bool = False) -> None:
+    When ``mute``, it answers nothing at all from then on.
+    """
+
+    def __init__(self, context: Context, stuck: bool = False, mute: bool = False) -> None:
         super().__init__('tiny_motion_planner', context=context)
+        self.mute = mute
+        self.asked_for: list[str] = []
+        self.cancelled: list[str] = []
         self.release = threading.Event()
         self.asked = threading.Event()
         if not stuck:
@@ -48,15 +60,23 @@ class TinyMotionPlanner(Node):
             (CheckPreconditions, 'check_preconditions', self.check),
             (SatisfyPreconditions, 'satisfy_preconditions', self.satisfy),
             (Advise, 'advise', self.advise),
+            (CancelRequest, 'cancel_request', self.cancel),
         ):
             self.create_service(kind, name, answer, callback_group=group)
 
+    def cancel(self, request: Any, response: Any) -> Any:
+        self.cancelled.append(request.request_id)
+        return response
+
     def check(self, request: Any, response: Any) -> Any:
+        if self.mute and self.asked.is_set():
+            self.release.wait(PATIENCE)
         response.valid = True
         response.assigns = 'setProperty' in request.preconditions
         return response
 
     def satisfy(self, request: Any, response: Any) -> Any:
+        self.asked_for.append(request.request.request_id)
         self.asked.set()
         self.release.wait(PATIENCE)
         request = request.request
@@ -105,6 +125,14 @@ def spinning(make: Callable[[Context], Node]) -> Iterator[Any]:
         else:
             node.destroy_node()
         rclpy.shutdown(context=context)
+
+
+def until(condition: Callable[[], bool]) -> None:
+    pause = threading.Event()
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        assert time.monotonic() < end
+        pause.wait(0.01)
 
 
 def wait(future: Any) -> Any:
@@ -193,7 +221,9 @@ def test_the_answers_of_the_motion_planner_are_passed_on_unopened(client: Missio
     assert result.outcome.value == Outcome.SOLVED
     assert len(result.steps) == 9
     assert [len(step.start) for step in result.steps] == [0] + [1] * 8
-    assert [step.answer[0].request_id for step in result.steps][1].startswith('m:0:!take_photo')
+    ids = [step.answer[0].request_id for step in result.steps]
+    assert len(set(ids)) == len(ids)
+    assert all(name.startswith('m:') for name in ids)
     assert result.statistics.requests == 9
     assert client.phases[:2] == ['loading', 'checking']
     # Backwards advice at every choice: the last goal first, and so on.
@@ -212,6 +242,8 @@ def test_a_cancelled_mission_ends_at_once(client: MissionClient, waits: str) -> 
         result = wait(goal.get_result_async()).result
         assert time.monotonic() - began < 0.5
         assert result.outcome.value == Outcome.CANCELLED
+        if waits == 'running':
+            until(lambda: tiny.cancelled == tiny.asked_for)
         tiny.release.set()
         if waits == 'queued':
             result = wait(first.get_result_async()).result
@@ -228,6 +260,16 @@ def test_a_stuck_motion_planner_is_given_up(
         result = client.plan()
     assert result.outcome.value == Outcome.UNAVAILABLE
     assert 'satisfy_preconditions' in result.outcome.explanation
+
+
+def test_a_motion_planner_that_falls_silent_is_given_up_long_before_its_budget_is_spent(
+    planner: TaskPlannerNode, client: MissionClient
+) -> None:
+    planner.set_parameters([Parameter('request_time_budget', value=3600.0)])
+    with spinning(lambda context: TinyMotionPlanner(context, stuck=True, mute=True)):
+        result = client.plan()
+    assert result.outcome.value == Outcome.UNAVAILABLE
+    assert 'was stopped' in result.outcome.explanation
 
 
 def test_a_wrong_parameter_is_refused_with_a_sentence(planner: TaskPlannerNode) -> None:

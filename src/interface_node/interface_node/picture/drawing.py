@@ -12,12 +12,22 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Circle, Patch, Polygon
+from matplotlib.patches import Patch, Polygon
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from interface_node.driving import sample
+from interface_node.footprint import robot_outline
 from interface_node.picture.labels import place_labels
+from interface_node.picture.terrain import (
+    OBSTACLE,
+    OBSTACLE_EDGE,
+    REGION,
+    REGION_EDGE,
+    draw_map,
+    draw_obstacles,
+    draw_regions,
+)
 from interface_node.plan import Plan, Step, World
 
 #: Pixels an inch, and inches of the longer side.
@@ -29,7 +39,6 @@ MAX_LABELS = 100
 
 START, END = '#1a9641', '#d7191c'
 PROGRESS = LinearSegmentedColormap.from_list('progress', [START, '#2c7fb8', '#7b3294', END])
-OBSTACLE, OBSTACLE_EDGE = '#c3c8cf', '#9aa1ab'
 OBJECTIVE, INK, QUIET = '#ffd23f', '#22262b', '#6b7480'
 
 
@@ -64,13 +73,16 @@ def draw(plan: Plan) -> Figure:
         spine.set_color(OBSTACLE_EDGE)
     axes.set_title(_title(plan), loc='left', fontsize=13, color=INK, parse_math=False)
 
-    _draw_obstacles(axes, world)
+    draw_regions(axes, world)
+    draw_map(axes, world)
+    draw_obstacles(axes, world)
     way = _draw_way(axes, plan, world)
     looked_at = _draw_viewing_lines(axes, plan, world)
     _draw_objects(axes, world)
+    _draw_footprints(axes, plan, world)
     _draw_attitudes(axes, plan, world)
     axes.legend(
-        handles=_legend(plan),
+        handles=_legend(plan, world),
         loc='upper center',
         # Below the axis and its label, which take the same room in every picture.
         bbox_to_anchor=(0.5, -BELOW_AXIS / figure.get_figheight()),
@@ -91,17 +103,6 @@ def _title(plan: Plan) -> str:
         return f'{name}: {plan.outcome}'
     actions = f'{len(plan.steps)} action{"" if len(plan.steps) == 1 else "s"}'
     return f'{name}: {actions}, {plan.length:,.0f} m'
-
-
-def _draw_obstacles(axes: Axes, world: World) -> None:
-    style = {'facecolor': OBSTACLE, 'edgecolor': OBSTACLE_EDGE, 'linewidth': 0.8, 'zorder': 1}
-    for obstacle in world.obstacles:
-        patch: Patch = (
-            Polygon(obstacle.corners, closed=True, **style)
-            if obstacle.corners
-            else Circle(obstacle.center, obstacle.radius, **style)
-        )
-        axes.add_patch(patch)
 
 
 def _draw_way(axes: Axes, plan: Plan, world: World) -> NDArray[np.float64]:
@@ -177,6 +178,17 @@ def _draw_objects(axes: Axes, world: World) -> None:
             zorder=6,
             gid=label,
         )
+
+
+def _draw_footprints(axes: Axes, plan: Plan, world: World) -> None:
+    """Draw the footprints where actions end; a disc would only look like the attitude's mark."""
+    for step in plan.steps:
+        robot = world.robot(step.agent)
+        if robot and robot.footprint and step.end:
+            corners = robot_outline(robot, step.end)
+            axes.add_patch(
+                Polygon(corners, closed=True, fill=False, edgecolor=INK, lw=1.0, zorder=6.5)
+            )
 
 
 def _draw_attitudes(axes: Axes, plan: Plan, world: World) -> None:
@@ -280,7 +292,7 @@ def _arrow_points(origin: NDArray[np.float64], heading: float) -> NDArray[np.flo
     return points
 
 
-def _legend(plan: Plan) -> list[Line2D | Patch]:
+def _legend(plan: Plan, world: World) -> list[Line2D | Patch]:
     def dot(color: str, label: str, marker: str = 'o', edge: str = 'white') -> Line2D:
         return Line2D(
             [], [], ls='', marker=marker, ms=9, color=color, mec=edge, mew=0.9, label=label
@@ -290,6 +302,8 @@ def _legend(plan: Plan) -> list[Line2D | Patch]:
         Patch(facecolor=OBSTACLE, edgecolor=OBSTACLE_EDGE, label='obstacle'),
         dot(OBJECTIVE, 'object', 's', INK),
     ]
+    if world.regions:
+        handles.append(Patch(facecolor=REGION, edgecolor=REGION_EDGE, ls='--', label='region'))
     if any(step.end for step in plan.steps):
         handles += [
             dot(START, 'start'),

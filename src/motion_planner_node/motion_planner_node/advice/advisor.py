@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from math import inf
 
-import numpy as np
-
+from motion_planner_node.advice import pairwise
+from motion_planner_node.advice.costs import Driven, estimates, grouped, lower_bounds
 from motion_planner_node.advice.survey import Survey
 from motion_planner_node.codes import Code, Status
-from motion_planner_node.errors import MotionPlannerError, Stopped
+from motion_planner_node.errors import MotionPlannerError
 from motion_planner_node.language import Preconditions
 from motion_planner_node.parameters import Parameters
 from motion_planner_node.planning import answers
@@ -21,13 +22,17 @@ from motion_planner_node.planning.problem import (
     checked_state,
     read_problem,
 )
-from motion_planner_node.planning.proofs import Impossible, blocked_start, contradiction
+from motion_planner_node.planning.proofs import Impossible, blocked_start
 from motion_planner_node.requests import AdviceAnswer, AdviceRequest, CandidateAdvice
 from motion_planner_node.robots.motion import Attitude, GeometricState
-from motion_planner_node.world.model import CarModel, World
+from motion_planner_node.robots.robot import Robot
+from motion_planner_node.stopping import ShouldStop, go_on
+from motion_planner_node.world.model import World
 
 #: Candidates of one request at most.
 MOST_CANDIDATES = 1000
+#: Candidates of one request for pairwise costs at most: more would take many seconds.
+MOST_PAIRED = 512
 
 
 class Advisor:
@@ -38,14 +43,18 @@ class Advisor:
         world: World,
         parameters: Parameters,
         parsed: Callable[[str], Preconditions],
-        ground_of: Callable[[CarModel], Ground],
+        ground_of: Callable[[Robot], Ground],
     ):
         self._world = world
         self._parsed = parsed
         self._ground_of = ground_of
         self._surveys: Cache[object, Survey] = Cache(parameters.cache_size)
 
-    def advise(self, request: AdviceRequest, should_stop: Callable[[], bool]) -> AdviceAnswer:
+    def forget(self) -> None:
+        """Drop what was kept; it is worked out again when it is needed."""
+        self._surveys.clear()
+
+    def advise(self, request: AdviceRequest, should_stop: ShouldStop) -> AdviceAnswer:
         """Advice on every candidate; the order is nearest first, impossible ones last.
 
         :raises MotionPlannerError: WORLD_CHANGED, UNKNOWN_AGENT, INVALID_START, UNSUPPORTED
@@ -57,44 +66,81 @@ class Advisor:
             raise MotionPlannerError(
                 Code.UNSUPPORTED, f'{count} candidates are too many: {MOST_CANDIDATES} at most'
             )
+        if request.pairwise and count > MOST_PAIRED:
+            raise MotionPlannerError(
+                Code.UNSUPPORTED,
+                f'{count} candidates are too many for pairwise costs: {MOST_PAIRED} at most',
+            )
         state = checked_state(self._world, request.start)
-        candidates = []
-        for text in request.preconditions:
-            if should_stop():
-                raise Stopped
+        candidates, driven = [], {}
+        standing = _Standing(state)
+        for index, text in enumerate(request.preconditions):
+            go_on(should_stop)
             try:
-                candidates.append(self._advice(text, state, request.seed))
+                known = self._known(text, standing, request.seed, should_stop)
             except MotionPlannerError as error:
-                candidates.append(CandidateAdvice(code=error.code, message=error.message))
+                known = CandidateAdvice(code=error.code, message=error.message)
+            if isinstance(known, Driven):
+                driven[index] = known
+                known = CandidateAdvice(objects=known.survey.problem.program.objects)
+            candidates.append(known)
+        for index, (lower_bound, estimate) in _costs(driven).items():
+            candidates[index] = replace(
+                candidates[index], lower_bound=lower_bound, estimate=estimate
+            )
         order = sorted(
             range(count), key=lambda i: (candidates[i].impossible, candidates[i].estimate, i)
         )
-        return AdviceAnswer(tuple(candidates), tuple(order), self._world.revision)
+        answer = AdviceAnswer(tuple(candidates), tuple(order), self._world.revision)
+        if not request.pairwise:
+            return answer
+        bounds, estimates = pairwise.matrices(candidates, driven, should_stop)
+        return replace(
+            answer,
+            pairwise_lower_bounds=tuple(bounds.ravel().tolist()),
+            pairwise_estimates=tuple(estimates.ravel().tolist()),
+        )
 
-    def _advice(self, text: str, state: GeometricState, seed: int) -> CandidateAdvice:
+    def _known(
+        self, text: str, standing: _Standing, seed: int, should_stop: ShouldStop
+    ) -> CandidateAdvice | Driven:
+        """What is known of one candidate at once, or what its costs follow from."""
+        state = standing.state
         preconditions = self._parsed(text)
         mover = preconditions.agents[0] if preconditions.agents else ''
         if preconditions.assigns or mover not in state:
             return self._assigned(read_problem(self._world, preconditions, state))
-        others = tuple(item for item in state.items() if item[0] != mover)
         survey = self._surveys.get(
-            (text, others, seed), lambda: self._survey(preconditions, state, mover, seed)
+            (text, standing.others(mover), seed),
+            lambda: self._survey(preconditions, state, mover, seed, should_stop),
         )
         start = state[mover]
-        problem = survey.problem.starting_at(start)
-        proof = contradiction(problem) or blocked_start(problem, survey.ground)
-        proof = proof or survey.proof(start)
-        return _impossible(problem, proof) if proof else _costs(survey, start)
+        proof = survey.contradiction or standing.blocked(survey)
+        if proof:
+            return _impossible(survey.problem, proof)
+        with survey.problem.program.broken_off_by(should_stop):
+            reach = survey.reach(start, standing.part(survey))
+        return (
+            _impossible(survey.problem, reach.proof)
+            if reach.proof
+            else Driven(survey, reach, start)
+        )
 
     def _survey(
-        self, preconditions: Preconditions, state: GeometricState, mover: str, seed: int
+        self,
+        preconditions: Preconditions,
+        state: GeometricState,
+        mover: str,
+        seed: int,
+        should_stop: ShouldStop,
     ) -> Survey:
         bounds = self._world.bounds
         middle = Attitude(
             0.5 * (bounds.x_min + bounds.x_max), 0.5 * (bounds.y_min + bounds.y_max), 0.0
         )
         problem = read_problem(self._world, preconditions, {**state, mover: middle})
-        return Survey.of(problem, self._ground_of(problem.car), seed)
+        with problem.program.broken_off_by(should_stop):
+            return Survey.of(problem, self._ground_of(problem.robot), seed)
 
     def _assigned(self, problem: Problem) -> CandidateAdvice:
         answer = answers.assigned(problem, self._ground_of, 0)
@@ -111,6 +157,37 @@ class Advisor:
         )
 
 
+class _Standing:
+    """Where everybody stands in one request, and what follows from it for each robot."""
+
+    def __init__(self, state: GeometricState) -> None:
+        self.state = state
+        self._others: dict[str, tuple[tuple[str, Attitude], ...]] = {}
+        self._blocked: dict[str, Impossible | None] = {}
+        self._parts: dict[str, int] = {}
+
+    def others(self, mover: str) -> tuple[tuple[str, Attitude], ...]:
+        """Where all but ``mover`` stand."""
+        if mover not in self._others:
+            self._others[mover] = tuple(item for item in self.state.items() if item[0] != mover)
+        return self._others[mover]
+
+    def blocked(self, survey: Survey) -> Impossible | None:
+        """Whether the robot of ``survey`` stands where it cannot."""
+        mover = survey.problem.agent
+        if mover not in self._blocked:
+            problem = survey.problem.starting_at(self.state[mover])
+            self._blocked[mover] = blocked_start(problem, survey.ground)
+        return self._blocked[mover]
+
+    def part(self, survey: Survey) -> int:
+        """The connected part of the free space that the robot of ``survey`` stands in."""
+        mover = survey.problem.agent
+        if mover not in self._parts:
+            self._parts[mover] = survey.ground.part_of(self.state[mover])
+        return self._parts[mover]
+
+
 def _impossible(problem: Problem, proof: Impossible) -> CandidateAdvice:
     return CandidateAdvice(
         lower_bound=inf,
@@ -123,13 +200,16 @@ def _impossible(problem: Problem, proof: Impossible) -> CandidateAdvice:
     )
 
 
-def _costs(survey: Survey, start: Attitude) -> CandidateAdvice:
-    lower_bound = survey.lower_bound(start)
-    if lower_bound == 0.0 and survey.holds_at(start):
-        estimate = 0.0
-    else:
-        estimates = survey.ground.estimates(start, survey.states(start))
-        estimate = max(lower_bound, float(np.min(estimates)))
-    return CandidateAdvice(
-        lower_bound=lower_bound, estimate=estimate, objects=survey.problem.program.objects
-    )
+def _costs(driven: Mapping[int, Driven]) -> dict[int, tuple[float, float]]:
+    """Lower bounds and estimates [m] by number, worked out together for each robot."""
+    result = {}
+    for _, members in grouped(driven):
+        first = driven[members[0]]
+        ground, start = first.survey.ground, first.start
+        reaches = [driven[index].reach for index in members]
+        bounds = lower_bounds(ground, start, reaches).tolist()
+        expected = estimates(ground, start, reaches).tolist()
+        for index, bound, estimate in zip(members, bounds, expected, strict=True):
+            is_there = bound == 0.0 and driven[index].survey.holds_at(start)
+            result[index] = (bound, 0.0 if is_there else max(bound, estimate))
+    return result

@@ -7,29 +7,43 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from motion_planner_node.planning.boxes import Boxes
 from motion_planner_node.planning.ground import Ground
 from motion_planner_node.planning.problem import Problem
-from motion_planner_node.planning.proofs import Impossible, hopeful_cells, walled_off
+from motion_planner_node.planning.proofs import (
+    Impossible,
+    contradiction,
+    hopeful_cells,
+    walled_off,
+)
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.satisfaction import restarts
 
 #: Descents from which destinations are known.
 DESCENTS = 128
-#: What a motion may end short of exactly meeting a constraint [m]; taken off lower bounds.
-SLACK = 1e-6
+#: Destinations of one part of the free space that are kept, evenly chosen.
+MOST_STATES = 48
 
 
-@dataclass(slots=True)
-class _Reachable:
+@dataclass(frozen=True, slots=True)
+class Reach:
     """What can be driven to from one connected part of the free space.
 
-    ``states`` are attitudes (k, 3) to estimate the cost of, ``proof`` says that there are none.
+    Attributes:
+        cells: numbers of the ground's cells that may hold a destination, packed as bits
+        rim: (n, 4) x_lo, y_lo, x_hi, y_hi [m] of those of them that have others beside them; from
+            anywhere outside of the cells one of these is the nearest
+        states: (k, 3) attitudes, at least one, near which a motion may end
+        proof: why nothing can be driven to, if so
     """
 
-    boxes: Boxes
+    cells: NDArray[np.uint8]
+    rim: NDArray[np.float64]
     states: NDArray[np.float64]
     proof: Impossible | None
+
+    def holds(self, cell: int) -> bool:
+        """Whether the ground's ``cell`` may hold a destination."""
+        return bool(self.cells[cell >> 3] >> (7 - (cell & 7)) & 1)
 
 
 @dataclass(slots=True)
@@ -42,8 +56,8 @@ class Survey:
     problem: Problem
     ground: Ground
     _destinations: NDArray[np.float64]
-    _cells: NDArray[np.intp]
-    _reachable: dict[int, _Reachable] = field(default_factory=dict)
+    _cells: NDArray[np.uint8]
+    _reaches: dict[int, Reach] = field(default_factory=dict)
 
     @classmethod
     def of(cls, problem: Problem, ground: Ground, seed: int) -> Survey:
@@ -52,36 +66,49 @@ class Survey:
         descent = restarts(problem.program, ground.scene.world.bounds, rng, DESCENTS)
         states = descent.states[descent.satisfied]
         states = states[ground.is_free(states)]
-        return cls(problem, ground, states, hopeful_cells(problem, ground))
+        return cls(problem, ground, states, _packed(ground, hopeful_cells(problem, ground)))
 
-    def proof(self, start: Attitude) -> Impossible | None:
-        """Why nothing can be driven to from ``start``, if so."""
-        return self._from(start).proof
+    @property
+    def contradiction(self) -> Impossible | None:
+        """Why nobody can ever meet the constraints, as far as their text shows."""
+        return contradiction(self.problem)
 
-    def lower_bound(self, start: Attitude) -> float:
-        """Length [m] that no motion from ``start`` to a destination is shorter than."""
-        nearest = float(self._from(start).boxes.distances(start.x, start.y).min())
-        return max(0.0, nearest - SLACK)
+    def reach(self, start: Attitude, here: int) -> Reach:
+        """What can be driven to from ``start``, as far as connected parts of the free space tell.
 
-    def states(self, start: Attitude) -> NDArray[np.float64]:
-        """Attitudes (k, 3), at least one, near which a motion from ``start`` may end."""
-        return self._from(start).states
+        ``here`` is the number of the part that ``start`` is in.
+        """
+        if here not in self._reaches:
+            self._reaches[here] = self._reached(start, here)
+        return self._reaches[here]
 
     def holds_at(self, start: Attitude) -> bool:
         """Whether the constraints are met at ``start`` already."""
         return not self.problem.program.unmet(start)
 
-    def _from(self, start: Attitude) -> _Reachable:
-        here = self.ground.part_of(start)
-        if here not in self._reachable:
-            self._reachable[here] = self._reached(start, here)
-        return self._reachable[here]
-
-    def _reached(self, start: Attitude, here: int) -> _Reachable:
-        problem = self.problem.starting_at(start)
-        boxes = self.ground.cells.boxes.chosen(self._cells[self.ground.parts[self._cells] == here])
-        states = self._destinations[self.ground.parts_of(self._destinations) == here]
+    def _reached(self, start: Attitude, here: int) -> Reach:
+        ground = self.ground
+        count = len(ground.parts)
+        hopeful = np.flatnonzero(np.unpackbits(self._cells, count=count))
+        proof = walled_off(self.problem.starting_at(start), ground, hopeful)
+        chosen = hopeful[ground.parts[hopeful] == here]
+        boxes = ground.cells.boxes.chosen(ground.rim_of(chosen))
+        rim = np.column_stack([boxes.x_lo, boxes.y_lo, boxes.x_hi, boxes.y_hi])
+        states = self._destinations[ground.parts_of(self._destinations) == here]
         if not len(states):
             x, y = boxes.centres
             states = np.column_stack([x, y, np.zeros(len(x))])
-        return _Reachable(boxes, states, walled_off(problem, self.ground, self._cells))
+        even = spread(len(states), MOST_STATES)
+        return Reach(_packed(ground, chosen), rim, states[even], proof)
+
+
+def spread(count: int, most: int) -> NDArray[np.int64]:
+    """At most ``most`` of the numbers below ``count``, evenly spread."""
+    chosen = min(count, most)
+    return (np.arange(chosen) * 2 + 1) * count // max(2 * chosen, 1)
+
+
+def _packed(ground: Ground, cells: NDArray[np.intp]) -> NDArray[np.uint8]:
+    mask = np.zeros(len(ground.parts), np.bool_)
+    mask[cells] = True
+    return np.packbits(mask)

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motion_planner_node.functions.field import Field
+from motion_planner_node.world.hiding import least_obstructions
 from motion_planner_node.world.model import Region, World
-from motion_planner_node.world.shapes import Shapes, shapes_of, shapes_of_region
-from motion_planner_node.world.sight import least_obstructions, obstructions
+from motion_planner_node.world.shapes import Same, Shapes, shapes_of, shapes_of_region
+from motion_planner_node.world.sight import obstructions
 from motion_planner_node.world.signed_distance import clearances_with_slopes
 
 _Array = NDArray[np.float64]
@@ -120,26 +121,11 @@ class Surroundings:
         return self._regions[label]
 
 
-class _Same:
-    """A world that is equal only to itself."""
-
-    __slots__ = ('world',)
-
-    def __init__(self, world: World) -> None:
-        self.world = world
-
-    def __hash__(self) -> int:
-        return id(self.world)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Same) and other.world is self.world
-
-
 def surroundings_of(world: World) -> Surroundings:
     """The surroundings of ``world``, kept for the next call."""
-    return _kept(_Same(world))
+    return _kept(Same(world))
 
 
 @lru_cache(maxsize=4)
-def _kept(same: _Same) -> Surroundings:
+def _kept(same: Same) -> Surroundings:
     return Surroundings(same.world)

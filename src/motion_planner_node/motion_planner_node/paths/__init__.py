@@ -1,6 +1,16 @@
-"""Paths in the car's own kinematics: exact shots, OMPL's sampling, shortening."""
+"""Paths in the robot's own kinematics: shots, lattices, OMPL's sampling, shortening, checking."""
 
 from motion_planner_node.paths.planner import plan_path
+from motion_planner_node.paths.planners import DEFAULT_PLANNER, PLANNERS
+from motion_planner_node.paths.query import Region
 from motion_planner_node.paths.result import PathBudget, PathOutcome, PathResult
 
-__all__ = ['PathBudget', 'PathOutcome', 'PathResult', 'plan_path']
+__all__ = [
+    'DEFAULT_PLANNER',
+    'PLANNERS',
+    'PathBudget',
+    'PathOutcome',
+    'PathResult',
+    'Region',
+    'plan_path',
+]

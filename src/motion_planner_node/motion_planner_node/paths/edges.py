@@ -1,58 +1,115 @@
-"""Edges between attitudes: the shortest Dubins word that is free."""
+"""Edges between attitudes: the shortest word that is free."""
 
 from __future__ import annotations
 
 from math import inf
 
 import numpy as np
+from numba import typeof, types
+from numba.experimental import structref
 from numpy.typing import NDArray
 
-from motion_planner_node.robots.dubins import dubins_word, shortest_word
+from motion_planner_node.robots.body import Body
 from motion_planner_node.robots.kernel import kernel
-from motion_planner_node.world.shapes import Shapes
+from motion_planner_node.robots.motion import Pose
+from motion_planner_node.robots.steering import MOST_PIECES, shortest_word, word, words
+from motion_planner_node.world.shapes import SHAPES_TYPE, Shapes
 from motion_planner_node.world.sweeps import word_is_free
 
+#: One attitude (3,), several (n, 3), or pieces (n, 4).
 Row = NDArray[np.float64]
+Rows = NDArray[np.float64]
+
+
+@structref.register
+class FrameType(types.StructRef):
+    """The type of `Frame` in kernels."""
+
+
+class Frame(structref.StructRefProxy):
+    """What edges are made of and checked against; kernels get a reference to it.
+
+    shapes: obstacles and bounds of the world.
+    body: shape of the robot and the clearance that it keeps.
+    steering: number of its steering function, as `robots.steering` has it.
+    radius: its turning radius [m].
+    """
+
+    shapes: Shapes
+    body: Body
+    steering: int
+    radius: float
+
+
+structref.define_boxing(FrameType, Frame)
+
+_TYPE = FrameType(
+    [
+        ('shapes', SHAPES_TYPE),
+        ('body', typeof(Body(np.zeros((0, 2)), 0.0, 0.0, 0.0))),
+        ('steering', types.int64),
+        ('radius', types.float64),
+    ]
+)
 
 
 @kernel
-def shortest_is_free(
-    shapes: Shapes,
-    margin: float,
-    radius: float,
-    x0: float,
-    y0: float,
-    heading0: float,
-    x1: float,
-    y1: float,
-    heading1: float,
-) -> bool:
-    """Whether the shortest word from a free attitude to another is free for ``margin`` [m]."""
-    word, a, b, c = shortest_word(radius, x0, y0, heading0, x1, y1, heading1)
-    return word_is_free(shapes, margin, radius, (x0, y0, heading0), word, (a, b, c))
+def frame_of(shapes: Shapes, body: Body, steering: int, radius: float) -> Frame:
+    """The frame of these parts."""
+    frame: Frame = structref.new(_TYPE)
+    frame.shapes, frame.body, frame.steering, frame.radius = shapes, body, steering, radius
+    return frame
+
+
+@kernel
+def shortest_is_free(frame: Frame, start: Pose, end: Pose) -> bool:
+    """Whether the shortest word from a free attitude to another is free."""
+    pieces = np.zeros((MOST_PIECES, 4))
+    number = shortest_word(frame.steering, frame.radius, start, end, pieces)[1]
+    return number >= 0 and word_is_free(frame.shapes, frame.body, start, pieces)
+
+
+@kernel
+def shortest_length(frame: Frame, start: Row, end: Row, pieces: Rows) -> float:
+    """Length [m] of the shortest word, free or not; ``pieces`` (5, 4) is overwritten."""
+    here, there = (start[0], start[1], start[2]), (end[0], end[1], end[2])
+    shortest = inf
+    for number in range(words(frame.steering)):
+        length = word(frame.steering, frame.radius, number, here, there, pieces)
+        shortest = min(shortest, length)
+    return shortest
 
 
 @kernel
 def free_word(
-    shapes: Shapes, margin: float, radius: float, start: Row, end: Row, longest: float
+    frame: Frame, start: Row, end: Row, longest: float, pieces: Rows
 ) -> tuple[float, int]:
-    """Length [m] and number of the shortest free word of less than ``longest`` [m].
+    """Write the shortest free word of less than ``longest`` [m] to ``pieces`` (5, 4).
 
-    Infinite and -1 when there is none; ``start`` and ``end`` are attitudes (3,).
+    Returns its length [m] and number, infinite and -1 when there is none; ``start`` and ``end`` are
+    attitudes (3,), the first of them free.
     """
-    x0, y0, heading0 = start[0], start[1], start[2]
-    x1, y1, heading1 = end[0], end[1], end[2]
-    lengths = np.empty(6)
-    for word in range(6):
-        a, b, c = dubins_word(word, radius, x0, y0, heading0, x1, y1, heading1)
-        lengths[word] = a + b + c
-    for _ in range(6):
-        word = int(np.argmin(lengths))
-        length = lengths[word]
+    here, there = (start[0], start[1], start[2]), (end[0], end[1], end[2])
+    count = words(frame.steering)
+    lengths = np.empty(count)
+    for number in range(count):
+        lengths[number] = word(frame.steering, frame.radius, number, here, there, pieces)
+    for _ in range(count):
+        number = int(np.argmin(lengths))
+        length = lengths[number]
         if not length < longest:
             break
-        pieces = dubins_word(word, radius, x0, y0, heading0, x1, y1, heading1)
-        if word_is_free(shapes, margin, radius, (x0, y0, heading0), word, pieces):
-            return length, word
-        lengths[word] = inf
+        word(frame.steering, frame.radius, number, here, there, pieces)
+        if word_is_free(frame.shapes, frame.body, here, pieces):
+            return length, number
+        lengths[number] = inf
     return inf, -1
+
+
+@kernel
+def edge_lengths(frame: Frame, path: Rows) -> Row:
+    """Lengths [m], shape (n - 1,), of the edges of ``path`` (n, 3), infinite where none is free."""
+    lengths, pieces = np.empty(len(path) - 1), np.zeros((MOST_PIECES, 4))
+    for i in range(len(lengths)):
+        lengths[i] = free_word(frame, path[i], path[i + 1], inf, pieces)[0]
+    return lengths

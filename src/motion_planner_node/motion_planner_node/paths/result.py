@@ -20,7 +20,10 @@ class PathOutcome(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class PathResult:
-    """The ``motion`` to goal number ``goal_index``; else None, -1 and a ``reason`` with numbers."""
+    """The ``motion`` to goal number ``goal_index``; else None, -1 and a ``reason`` with numbers.
+
+    ``goal_index`` is -1 too when the motion ends at a destination that the region has given.
+    """
 
     outcome: PathOutcome
     motion: Motion | None = None
@@ -32,13 +35,15 @@ class PathResult:
 class PathBudget:
     """How much is tried: counts, so that the same is tried on every machine.
 
-    iterations: of the sampling planner, in one attempt.
-    attempts: of the sampling planner to find different ways round obstacles to one goal.
-    goals: that the sampling planner is run for, the most promising ones.
-    good_enough: no shorter motion is looked for below this multiple of the estimated length.
+    attitudes: of the lattice search at most; four times as many in its finer second try.
+    improving: attitudes that the lattice search goes on for once it has a path.
+    iterations: of a sampling planner.
+    refinements: times that better destinations are looked for along a path.
+    good_enough: nothing shorter is looked for below this multiple of the estimated length.
     """
 
+    attitudes: int = 20000
+    improving: int = 50
     iterations: int = 2000
-    attempts: int = 6
-    goals: int = 2
-    good_enough: float = 1.02
+    refinements: int = 2
+    good_enough: float = 1.005

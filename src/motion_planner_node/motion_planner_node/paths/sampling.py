@@ -1,121 +1,76 @@
-"""OMPL's bidirectional sampling planner in the car's own kinematics.
-
-J. J. Kuffner and S. M. LaValle, "RRT-Connect: an efficient approach to single-query path planning",
-ICRA 2000, on OMPL's Dubins state space.
-"""
+"""OMPL's sampling planners in the robot's own kinematics, to several destinations at once."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import pi, remainder, tau
-from threading import Lock
 
 import numpy as np
-from numpy.typing import NDArray
 from ompl import base, geometric, util
 
-from motion_planner_node.errors import Stopped
-from motion_planner_node.paths.edges import shortest_is_free
-from motion_planner_node.robots.motion import Attitude
-from motion_planner_node.world.clearance import clearance_at
-from motion_planner_node.world.shapes import Shapes
+from motion_planner_node.paths.edges import Rows
+from motion_planner_node.paths.ompl_problem import (
+    ONE_AT_A_TIME,
+    Iterations,
+    information_of,
+    seed_of,
+    space_of,
+    state_at,
+)
+from motion_planner_node.paths.query import Query
 
-util.setLogLevel(util.LogLevel.LOG_NONE)
-
-# OMPL hands out seeds process-wide: two searches at a time would take them from each other.
-_ONE_AT_A_TIME = Lock()
-
-
-class _Edges(base.MotionValidator):
-    """An edge is valid when its shortest Dubins word is free as a whole."""
-
-    def __init__(
-        self, information: base.SpaceInformation, shapes: Shapes, margin: float, radius: float
-    ) -> None:
-        super().__init__(information)
-        self._scene = (shapes, margin, radius)
-
-    def checkMotion(self, start: base.State, end: base.State) -> bool:
-        """Whether the edge from ``start`` to ``end`` is valid."""
-        return shortest_is_free(
-            *self._scene,
-            start.getX(),
-            start.getY(),
-            start.getYaw(),
-            end.getX(),
-            end.getY(),
-            end.getYaw(),
-        )
+Planner = Callable[[base.SpaceInformation], base.Planner]
 
 
-class _Iterations:
-    """Ends a search after a number of iterations, or when it is to stop."""
-
-    def __init__(self, most: int, should_stop: Callable[[], bool]) -> None:
-        self._left = most
-        self._should_stop = should_stop
-
-    def __call__(self) -> bool:
-        if self._should_stop():
-            raise Stopped
-        self._left -= 1
-        return self._left < 0
-
-
-def _space(shapes: Shapes, radius: float) -> base.DubinsStateSpace:
-    space = base.DubinsStateSpace(radius)
-    bounds = base.RealVectorBounds(2)
-    x_min, y_min, x_max, y_max = (float(value) for value in shapes.bounds)
-    bounds.setLow(0, x_min)
-    bounds.setLow(1, y_min)
-    bounds.setHigh(0, x_max)
-    bounds.setHigh(1, y_max)
-    space.setBounds(bounds)
-    return space
-
-
-def _state(space: base.DubinsStateSpace, attitude: Attitude) -> base.State:
-    state = space.allocState()
-    state.setXY(attitude.x, attitude.y)
-    # OMPL's angles are in [-pi, pi): it would take a heading of pi for invalid, and wait in vain.
-    heading = remainder(attitude.heading, tau)
-    state.setYaw(heading if heading < pi else -pi)
-    return state
-
-
-def sample_path(
-    shapes: Shapes,
-    margin: float,
-    radius: float,
-    start: Attitude,
-    goal: Attitude,
-    seed: int,
-    iterations: int,
-    should_stop: Callable[[], bool],
-) -> NDArray[np.float64] | None:
-    """Attitudes (n, 3) from ``start`` to ``goal`` whose shortest Dubins words are free.
-
-    ``margin`` [m] is the clearance that is kept, ``radius`` [m] the turning radius.  None when
-    there was none after ``iterations``.  Raises Stopped when ``should_stop`` says so.
-    """
-    space = _space(shapes, radius)
-    information = base.SpaceInformation(space)
-    information.setStateValidityChecker(
-        lambda state: bool(clearance_at(shapes, state.getX(), state.getY())[0] >= margin)
-    )
-    edges = _Edges(information, shapes, margin, radius)
-    information.setMotionValidator(edges)
+def _sampled(query: Query, make: Planner, iterations: int) -> Rows | None:
+    """What the planner finds in so many iterations: attitudes (n, 3) with free shortest words."""
+    space = space_of(query)
+    information = information_of(query, space)
     problem = base.ProblemDefinition(information)
-    problem.setStartAndGoalStates(_state(space, start), _state(space, goal))
-    enough = base.PlannerTerminationCondition(_Iterations(iterations, should_stop))
-    with _ONE_AT_A_TIME:
-        util.RNG.setSeed(seed)
+    enough = base.PlannerTerminationCondition(Iterations(query, iterations))
+    with ONE_AT_A_TIME:
+        util.RNG.setSeed(seed_of(query, 3, iterations))
+        problem.addStartState(state_at(query, space, query.start))
+        goals = base.GoalStates(information)
+        for row in query.goals:
+            goals.addState(state_at(query, space, row))
+        problem.setGoal(goals)
         information.setup()
-        planner = geometric.RRTConnect(information)
+        planner = make(information)
         planner.setProblemDefinition(problem)
         planner.setup()
         planner.solve(enough)
-    if not problem.hasExactSolution():
-        return None
-    states = problem.getSolutionPath().getStates()
-    return np.array([(s.getX(), s.getY(), s.getYaw()) for s in states])
+        if not problem.hasExactSolution():
+            query.efforts.append(f'{iterations} iterations of {planner.getName()}')
+            return None
+        states = problem.getSolutionPath().getStates()
+        path = np.array([(s.getX(), s.getY(), s.getYaw()) for s in states])
+    path[0] = query.start
+    last = np.abs(query.goals[:, :2] - path[-1, :2]).sum(axis=1)
+    path[-1] = query.goals[int(np.argmin(last))]
+    return path
+
+
+def rrt_connect(query: Query) -> Rows | None:
+    """Two trees that grow towards each other.
+
+    J. J. Kuffner and S. M. LaValle, "RRT-Connect: an efficient approach to single-query path
+    planning", ICRA 2000.
+    """
+    return _sampled(query, geometric.RRTConnect, query.budget.iterations)
+
+
+def rrt_star(query: Query) -> Rows | None:
+    """A tree that is rewired to ever shorter paths.
+
+    S. Karaman and E. Frazzoli, "Sampling-based algorithms for optimal motion planning", IJRR 30
+    (2011).
+    """
+    return _sampled(query, geometric.RRTstar, query.budget.iterations)
+
+
+def bit_star(query: Query) -> Rows | None:
+    """Batches of samples, searched in the order of what they may be good for.
+
+    J. D. Gammell, S. S. Srinivasa and T. D. Barfoot, "Batch informed trees (BIT*)", ICRA 2015.
+    """
+    return _sampled(query, geometric.BITstar, query.budget.iterations)

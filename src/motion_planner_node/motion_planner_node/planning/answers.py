@@ -17,8 +17,8 @@ from motion_planner_node.planning.stream import Found
 from motion_planner_node.planning.tried import Tried
 from motion_planner_node.requests import GeometricAnswer
 from motion_planner_node.robots.motion import Attitude, Motion
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import from_start, restarts, separation, together, unsolved
-from motion_planner_node.world.model import CarModel
 
 #: Descents among which the best compromise is chosen.
 COMPROMISES = 64
@@ -40,19 +40,21 @@ def found(problem: Problem, ground: Ground, result: Found) -> GeometricAnswer:
         _about(problem, ground),
         end=problem.moved_to(result.end),
         motion=result.motion,
+        duration=ground.robot.duration(result.motion),
+        clearance=ground.scene.motion_clearance(result.motion, ground.robot),
         residuals=problem.program.residuals(result.end),
         attempts=tuple(result.tried.attempts),
     )
 
 
 def assigned(
-    problem: Problem, ground_of: Callable[[CarModel], Ground], alternative: int
+    problem: Problem, ground_of: Callable[[Robot], Ground], alternative: int
 ) -> GeometricAnswer:
     """What becomes of commands: the attitudes that they set, when the robots can be in them.
 
     Constraints that stand beside commands are checked at the attitude that is set.
     """
-    ground = ground_of(problem.car)
+    ground = ground_of(problem.robot)
     world = ground.scene.world
     state = problem.program.apply_commands(problem.state)
     end = state[problem.agent]
@@ -108,6 +110,13 @@ def out_of_time(problem: Problem, ground: Ground, tried: Tried) -> GeometricAnsw
         message=f'the time budget ran out after {tried.total} destinations',
         attempts=tuple(tried.attempts),
     )
+
+
+def as_cancelled(answer: GeometricAnswer) -> GeometricAnswer:
+    """``answer`` when it was not the clock that broke the request off, but its client."""
+    if answer.code is not Code.OUT_OF_TIME:
+        return answer
+    return replace(answer, code=Code.CANCELLED, message='the request was cancelled')
 
 
 def exhausted(problem: Problem, ground: Ground, tried: Tried, alternative: int) -> GeometricAnswer:

@@ -11,10 +11,11 @@ Value = TypeVar('Value')
 
 
 class Cache(Generic[Key, Value]):
-    """Keeps the ``size`` values that were asked for last; what is forgotten is made anew."""
+    """Keeps the ``size`` values that were asked for last; what is ``forgotten`` is made anew."""
 
-    def __init__(self, size: int):
+    def __init__(self, size: int, forgotten: Callable[[Value], object] = lambda _: None):
         self._size = size
+        self._forgotten = forgotten
         self._values: OrderedDict[Key, Value] = OrderedDict()
 
     def get(self, key: Key, make: Callable[[], Value]) -> Value:
@@ -25,12 +26,16 @@ class Cache(Generic[Key, Value]):
         value = make()
         self._values[key] = value
         if len(self._values) > self._size:
-            self._values.popitem(last=False)
+            self._forgotten(self._values.popitem(last=False)[1])
         return value
 
     def known(self, key: Key) -> Value | None:
         """The value of ``key``; None when it is not here."""
         return self._values.get(key)
+
+    def clear(self) -> None:
+        """Forget everything."""
+        self._values.clear()
 
     def __len__(self) -> int:
         return len(self._values)

@@ -3,25 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import tau
+from math import floor
 
 import numpy as np
 from numpy.typing import NDArray
 
+from motion_planner_node.paths.turning_room import turning_room
 from motion_planner_node.planning.boxes import Boxes, Pyramid
-from motion_planner_node.robots.car import dubins_lengths
-from motion_planner_node.robots.motion import Attitude, Motion, Segment
+from motion_planner_node.robots.body import necessary_clearance
+from motion_planner_node.robots.driving import shortest_between
+from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import Room
-from motion_planner_node.world.model import CarModel
-from motion_planner_node.world.scene import Scene, required_clearance
+from motion_planner_node.world.scene import Scene
 
 #: Boxes on a side of the map where a grid over all of it is needed, free or not.
 WHOLE_MAP_BOXES = 96
 #: Places on the rim of an area whose nearest obstacles are named.
 RIM_PLACES = 256
-
-#: Turning radii that a car may drive ahead before it looks for room to turn.
-RUN_UPS = (0.0, 1.0, 2.0, 4.0, 8.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,25 +34,32 @@ class Area:
 class Ground:
     """Free space of one robot in one world; immutable, and shared by all its requests."""
 
-    def __init__(self, scene: Scene, car: CarModel):
+    def __init__(self, scene: Scene, robot: Robot):
         self.scene = scene
-        self.car = car
-        self._free = scene.free_space(car.radius)
+        self.robot = robot
+        self._free = scene.free_space(robot.body)
         cells = self._free.cells
         self.cells = Pyramid(Boxes.of(cells.x_lo, cells.x_hi, cells.y_lo, cells.y_hi))
         #: Number of the connected part of the free space that each of ``cells`` is in, (n,).
         self.parts = self._free.components_of(*self.cells.boxes.centres)
         bounds = scene.world.bounds
+        # Numbers of the cells on a grid with a closed cell all round; -1 where closed.
+        side = self._free.resolution
+        self._columns = np.rint((cells.x_lo - bounds.x_min) / side).astype(np.int32) + 1
+        self._rows = np.rint((cells.y_lo - bounds.y_min) / side).astype(np.int32) + 1
+        shape = (self._rows.max(initial=0) + 2, self._columns.max(initial=0) + 2)
+        self._numbers = np.full(shape, -1, np.int32)
+        self._numbers[self._rows, self._columns] = np.arange(len(cells))
         whole = Boxes.tiling(
             bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max, WHOLE_MAP_BOXES
         )
         self.everywhere = Pyramid(whole)
-        #: Where the robot's disc can be, for descents and proofs.
-        self.room = Room(scene.shapes, required_clearance(car.radius))
+        #: Where the robot can be in some heading, for descents and proofs.
+        self.room = Room(scene.shapes, necessary_clearance(robot.body))
 
     def is_free(self, states: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Which of the attitudes (n, 3) the robot can stand in, shape (n,)."""
-        return np.asarray(self.scene.is_free(states, self.car.radius))
+        return np.asarray(self.scene.is_free(states, self.robot.body))
 
     def trouble(self, attitude: Attitude) -> str:
         """What is wrong with standing at ``attitude``, as the end of a sentence; '' when nothing is."""
@@ -72,24 +78,11 @@ class Ground:
         name, clearance = self.scene.nearest_obstacle(attitude.x, attitude.y)
         if clearance < 0.0:
             return f'{here} is {-clearance:.4g} m inside {name}'
-        return f'{here} is {clearance:.4g} m from {name}; the robot needs {self.car.radius:g} m'
+        return f'{here} is {clearance:.4g} m from {name}; the robot needs {self.robot.radius:g} m'
 
-    def can_turn_round(self, attitude: Attitude) -> bool:
-        """Whether there is room for a full circle at ``attitude`` or straight ahead of it.
-
-        A car that only drives forward may never get out of a place without such room.
-        """
-        circle = tau * self.car.turning_radius
-        for ahead in RUN_UPS:
-            straight = Segment(0.0, ahead * self.car.turning_radius)
-            for angle in (self.car.max_steering_angle, -self.car.max_steering_angle):
-                segments = (
-                    (straight, Segment(angle, circle)) if ahead else (Segment(angle, circle),)
-                )
-                motion = Motion(self.car.label, attitude, segments)
-                if self.scene.motion_is_free(motion, self.car):
-                    return True
-        return False
+    def can_turn_round(self, states: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """At which free attitudes (n, 3) there is room to turn, shape (n,); see `turning_room`."""
+        return turning_room(self.scene, self.robot, states)
 
     def part_of(self, attitude: Attitude) -> int:
         """Number of the connected part of the free space that ``attitude`` is in; -1 for none."""
@@ -99,22 +92,53 @@ class Ground:
         """Numbers of the connected parts of the free space that attitudes (n, 3) are in, (n,)."""
         return self._free.components_of(states[:, 0], states[:, 1])
 
+    def cell_of(self, attitude: Attitude) -> int:
+        """Number of the one of ``cells`` that ``attitude`` is in; -1 for none."""
+        bounds, side = self.scene.world.bounds, self._free.resolution
+        row = floor((attitude.y - bounds.y_min) / side) + 1
+        column = floor((attitude.x - bounds.x_min) / side) + 1
+        rows, columns = self._numbers.shape
+        inside = 0 <= row < rows and 0 <= column < columns
+        return int(self._numbers[row, column]) if inside else -1
+
+    def rim_of(self, chosen: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Those of the ``chosen`` ones of ``cells`` (n,) that have a cell beside them that is not."""
+        mask = np.zeros(self._numbers.shape, np.bool_)
+        rows, columns = self._rows[chosen], self._columns[chosen]
+        mask[rows, columns] = True
+        enclosed = mask[rows - 1, columns] & mask[rows + 1, columns]
+        enclosed &= mask[rows, columns - 1] & mask[rows, columns + 1]
+        return np.asarray(chosen[~enclosed])
+
+    def ways_round(self, start: Attitude, states: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Estimated lengths [m], (n,), of the ways from ``start`` round obstacles to states (n, 3).
+
+        The turning radius is not regarded.  Infinite where no way is known.
+        """
+        field = self._free.distance_from(start.x, start.y)
+        return np.asarray(field.at(states[:, 0], states[:, 1]))
+
+    def steered(
+        self, starts: NDArray[np.float64], ends: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """Lengths [m], (n,), of the shortest motions without obstacles, as `shortest_between`."""
+        return shortest_between(starts, ends, self.robot)
+
     def estimates(self, start: Attitude, states: NDArray[np.float64]) -> NDArray[np.float64]:
         """Estimated lengths [m] of the motions from ``start`` to attitudes (n, 3), shape (n,).
 
         The larger of the shortest motion without obstacles and the way round the obstacles.
         """
-        field = self._free.distance_from(start.x, start.y)
-        around = field.at(states[:, 0], states[:, 1])
         here = np.array([start.x, start.y, start.heading])
-        return np.asarray(np.maximum(around, dubins_lengths(here, states, self.car)))
+        around = self.ways_round(start, states)
+        return np.asarray(np.maximum(around, self.steered(here, states)))
 
     def area(self, part: int) -> Area:
         """Size and bounding obstacles of a connected part of the free space, biggest share first."""
         boxes = self.cells.boxes.chosen(self.parts == part)
         x, y = boxes.centres
         near = self.scene.clearance(np.column_stack([x, y])) < (
-            self.car.radius + 1.5 * self._free.resolution
+            self.robot.radius + 1.5 * self._free.resolution
         )
         rim = np.flatnonzero(near)
         rim = rim[:: max(1, len(rim) // RIM_PLACES)]

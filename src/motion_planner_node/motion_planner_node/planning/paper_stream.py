@@ -8,7 +8,7 @@ import numpy as np
 
 from motion_planner_node.codes import AttemptResult
 from motion_planner_node.functions import Array
-from motion_planner_node.planning.stream import Candidate, Found, Stream
+from motion_planner_node.planning.stream import Candidate, Found, Stream, Way
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.satisfaction.paper_mode import (
     PaperCriterion,
@@ -25,7 +25,7 @@ class PaperStream(Stream):
         start, bounds = self._problem.start, self._ground.scene.world.bounds
         rng = np.random.default_rng([self._seed, 0])
         self._share = 0.0
-        candidates = algorithm_1(
+        ways = algorithm_1(
             PaperCriterion(self._problem.program),
             np.array([start.x, start.y, start.heading]),
             random_states(rng, (bounds.x_min, bounds.y_min), (bounds.x_max, bounds.y_max)),
@@ -33,9 +33,9 @@ class PaperStream(Stream):
             self._find_path,
             PaperLimits(self._parameters.paper_tries, self._parameters.paper_steps),
         )
-        for candidate in candidates:
-            if self._is_new(candidate.attitude):
-                yield self._answer(candidate)
+        for way in ways:
+            if self._is_new(way[1]):
+                yield self._answer(way)
             if self._has_failed:
                 return
 
@@ -48,12 +48,11 @@ class PaperStream(Stream):
         self.tried.add(attitude, AttemptResult.IN_OBSTACLE, trouble)
         return False
 
-    def _find_path(self, state: Array) -> Candidate | None:
+    def _find_path(self, state: Array) -> Way | None:
         self._number += 1
-        candidate = Candidate(
-            dead_end=False, length=0.0, number=self._number, attitude=_attitude(state)
-        )
-        return candidate if not self._has_failed and self._plan(candidate) else None
+        candidate = Candidate(self._number, _attitude(state))
+        self._candidates = [candidate]
+        return None if self._has_failed else self._plan([candidate], None)
 
     def _restart(self) -> None:
         self._number = 0

@@ -10,10 +10,12 @@ from motion_planner_node.codes import Code
 from motion_planner_node.errors import Diagnostic, MotionPlannerError
 from motion_planner_node.language import Preconditions
 from motion_planner_node.parameters import MODES
+from motion_planner_node.paths.planners import planner_named
 from motion_planner_node.requests import GeometricRequest
 from motion_planner_node.robots.motion import Attitude, GeometricState
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import Program, compile_program
-from motion_planner_node.world.model import CarModel, World
+from motion_planner_node.world.model import World
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +23,7 @@ class Problem:
     """Ground preconditions, compiled, and where everybody stands before the action."""
 
     program: Program
-    car: CarModel
+    robot: Robot
     state: GeometricState
 
     @property
@@ -83,6 +85,8 @@ def check_request(world: World, request: GeometricRequest) -> None:
         raise MotionPlannerError(
             Code.UNSUPPORTED, f'there is no mode {request.mode!r}; there are {", ".join(MODES)}'
         )
+    if request.planner:
+        planner_named(request.planner)
     if not 0.0 <= request.time_budget < float('inf'):
         raise MotionPlannerError(
             Code.UNSUPPORTED,

@@ -77,12 +77,12 @@ def _no_free_place(problem: Problem, ground: Ground) -> Impossible:
     everywhere = ground.everywhere
     places = everywhere.boxes.chosen(everywhere.select(problem.program.position_cells))
     near = (ground.scene.nearest_obstacle(x, y) for x, y in zip(*places.centres, strict=True))
-    names = sorted({name for name, clearance in near if clearance < ground.car.radius})
+    names = sorted({name for name, clearance in near if clearance < ground.robot.radius})
     return Impossible(
         Code.NO_FREE_DESTINATION,
         scope_of(problem, Scope.ANY_START),
         f'every place from which {_wanted(problem)} holds is blocked by {_listed(names)} '
-        f'for a robot of radius {ground.car.radius:g} m',
+        f'for a robot of radius {ground.robot.radius:g} m',
         f'move {_listed(names)} or relax the constraints',
     )
 
@@ -107,7 +107,7 @@ def _enclosed(problem: Problem, ground: Ground, here: int, there: int) -> Imposs
         Code.UNREACHABLE,
         scope_of(problem, Scope.CONNECTED_STARTS),
         message,
-        f'open a passage wider than {2.0 * ground.car.radius:g} m through '
+        f'open a passage wider than {2.0 * ground.robot.radius:g} m through '
         f'{_listed(walls.obstacles)}',
     )
 

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import heapq
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import hypot, pi, remainder, tau
 
 import numpy as np
+from numpy.typing import NDArray
 
 from motion_planner_node.codes import AttemptResult
 from motion_planner_node.errors import Stopped
 from motion_planner_node.parameters import Parameters
-from motion_planner_node.paths import plan_path
+from motion_planner_node.paths import DEFAULT_PLANNER, PathBudget, Region, plan_path
 from motion_planner_node.planning.ground import Ground
 from motion_planner_node.planning.problem import Problem
 from motion_planner_node.planning.proofs import (
@@ -22,9 +22,9 @@ from motion_planner_node.planning.proofs import (
     walled_off,
 )
 from motion_planner_node.planning.tried import Tried
-from motion_planner_node.robots.car import end_of
+from motion_planner_node.robots.driving import end_of
 from motion_planner_node.robots.motion import Attitude, Motion
-from motion_planner_node.satisfaction import destinations
+from motion_planner_node.satisfaction import descend, destinations
 
 #: Destinations that are as near as this [m] and [rad] are the same one, found again.
 SAME = 1e-3
@@ -42,22 +42,25 @@ class Found:
     tried: Tried
 
 
-@dataclass(order=True, slots=True)
+#: A motion, and where it ends.
+Way = tuple[Motion, Attitude]
+
+
+@dataclass(frozen=True, slots=True)
 class Candidate:
-    """A destination; ``length`` [m] is an estimate until there is a motion.
+    """A destination, ``length`` [m] away by estimate.
 
     One that may be a dead end comes after all others: the next action has to start there.
     """
 
-    dead_end: bool
-    length: float
     number: int
-    attitude: Attitude = field(compare=False)
-    motion: Motion | None = field(default=None, compare=False)
+    attitude: Attitude
+    length: float = 0.0
+    dead_end: bool = False
 
 
 class Stream:
-    """Motions to really different destinations, the shortest of a handful first.
+    """Motions to really different destinations, each as short as can be found.
 
     Those that come after the first are on another side or at another distance, as far as there is
     any; when there is no more, they may be nearer to those before them.
@@ -66,18 +69,32 @@ class Stream:
     before, nor on time.  Counts bound the work; ``should_stop`` only breaks it off.
     """
 
-    def __init__(self, problem: Problem, ground: Ground, parameters: Parameters, seed: int):
+    def __init__(
+        self,
+        problem: Problem,
+        ground: Ground,
+        parameters: Parameters,
+        seed: int,
+        planner: str = DEFAULT_PLANNER,
+    ):
+        self._planner = planner
+        self._budget = PathBudget(
+            attitudes=parameters.path_attitudes,
+            iterations=parameters.path_iterations,
+            refinements=parameters.path_refinements,
+        )
         self._problem = problem
         self._ground = ground
         self._parameters = parameters
         self._seed = seed
+        #: The connected part of the free space that the start is in.
+        self._here = ground.part_of(problem.start)
         self._restart()
 
     def _restart(self) -> None:
         self.tried = Tried(self._problem.agent)
         self._found: list[Found] = []
         self._candidates: list[Candidate] = []
-        self._alike: list[Candidate] = []
         self._share = SHARES[0]
         self._spread = 0.0
         self._seen: list[Attitude] = []
@@ -98,20 +115,20 @@ class Stream:
             self._restart()
         self._should_stop = should_stop
         self._broken = True
-        while len(self._found) <= alternative:
-            found = next(self._more, None)
-            if found is None:
-                break
-            self._found.append(found)
+        with self._problem.program.broken_off_by(should_stop):
+            while len(self._found) <= alternative:
+                found = next(self._more, None)
+                if found is None:
+                    break
+                self._found.append(found)
         self._broken = False
         return self._found[alternative] if alternative < len(self._found) else None
 
     def _generate(self) -> Iterator[Found]:
         if not self._problem.program.unmet(self._problem.start):
             # Nothing is nearer than here; other destinations are for those who ask for them.
-            stay = Candidate(dead_end=False, length=0.0, number=0, attitude=self._problem.start)
-            stay.motion = Motion(self._problem.agent, self._problem.start)
-            yield self._answer(stay)
+            stay = Motion(self._problem.agent, self._problem.start)
+            yield self._answer((stay, self._problem.start))
         for round_number in range(self._parameters.rounds):
             self._add_candidates(round_number)
             if round_number == 0 and not self._candidates and not self._found:
@@ -123,28 +140,20 @@ class Stream:
                 yield from self._answers()
                 if self._has_failed:
                     return
-                self._candidates, self._alike = self._alike, []
-                heapq.heapify(self._candidates)
 
     def _answers(self) -> Iterator[Found]:
-        """Motions to candidates that are new, as much as is asked for now; others are laid aside."""
-        planned: list[Candidate] = []
-        while self._candidates or planned:
-            best = min(planned, default=None)
-            enough = len(planned) >= self._parameters.paths_per_answer or self._has_failed
-            if best and (enough or not self._candidates or best < self._candidates[0]):
-                planned.remove(best)
-                yield self._answer(best)
-                self._alike += [other for other in planned if not self._is_new(other.attitude)]
-                planned = [other for other in planned if self._is_new(other.attitude)]
-            elif self._has_failed:
-                return
-            else:
-                candidate = heapq.heappop(self._candidates)
-                if not self._is_new(candidate.attitude):
-                    self._alike.append(candidate)
-                elif candidate.motion or self._plan(candidate):
-                    planned.append(candidate)
+        """Motions to candidates that are new, as much as is asked for now."""
+        for dead_end in (False, True):
+            while not self._has_failed:
+                new = [
+                    candidate
+                    for candidate in self._candidates
+                    if candidate.dead_end is dead_end and self._is_new(candidate.attitude)
+                ]
+                way = self._plan(new, self._region(dead_end)) if new else None
+                if way is None:
+                    break
+                yield self._answer(way)
 
     @property
     def _has_failed(self) -> bool:
@@ -155,11 +164,10 @@ class Stream:
         proof = walled_off(self._problem, self._ground, hopeful)
         return proof or no_attitude(self._problem, self._ground)
 
-    def _answer(self, candidate: Candidate) -> Found:
-        assert candidate.motion is not None
+    def _answer(self, way: Way) -> Found:
         tried, self.tried = self.tried, Tried(self._problem.agent)
         self._failures = 0
-        return Found(candidate.motion, candidate.attitude, tried)
+        return Found(*way, tried)
 
     def _add_candidates(self, round_number: int) -> None:
         """Look for destinations, and keep those that the robot can stand in and may get to."""
@@ -175,56 +183,88 @@ class Stream:
             )
         )
         free = self._ground.is_free(states)
-        here = self._ground.part_of(self._problem.start)
-        near = self._ground.parts_of(states) == here
+        near = self._ground.parts_of(states) == self._here
+        roomy = self._ground.can_turn_round(states)
         estimates = self._ground.estimates(self._problem.start, states)
         if len(states):
             self._spread = max(self._spread, float(np.ptp(states[:, :2], axis=0).max()))
-        for state, is_free, is_near, estimate in zip(states, free, near, estimates, strict=True):
+        for index, state in enumerate(states):
             attitude = Attitude(*(float(number) for number in state))
             if not all(_differ(attitude, seen, SAME, SAME) for seen in self._seen):
                 continue
             self._seen.append(attitude)
-            if not is_free:
+            if not free[index]:
                 trouble = self._ground.trouble(attitude)
                 self.tried.add(attitude, AttemptResult.IN_OBSTACLE, trouble)
-            elif not is_near:
+            elif not near[index]:
                 reason = 'walled off from the start'
                 self.tried.add(attitude, AttemptResult.NO_PATH, reason)
             else:
-                stays = attitude == self._problem.start
-                dead_end = not stays and not self._ground.can_turn_round(attitude)
-                candidate = Candidate(dead_end, float(estimate), len(self._seen), attitude)
-                heapq.heappush(self._candidates, candidate)
+                dead_end = not roomy[index] and attitude != self._problem.start
+                length = float(estimates[index])
+                self._candidates.append(Candidate(len(self._seen), attitude, length, dead_end))
+        self._candidates.sort(key=lambda candidate: (candidate.length, candidate.number))
 
-    def _plan(self, candidate: Candidate) -> bool:
-        """Find a motion to the candidate and verify it where it ends."""
-        self._check_time()
-        start, goal = self._problem.start, candidate.attitude
-        if goal == start:
-            motion = Motion(self._problem.agent, start)
-        else:
-            seed = np.random.SeedSequence([self._seed, candidate.number]).generate_state(1)
+    def _plan(self, candidates: list[Candidate], region: Region | None) -> Way | None:
+        """Find a motion to one of ``candidates``, or into ``region``, and verify it where it ends.
+
+        Those that turn out not to be reached, or not to do, are candidates no longer.
+        """
+        left = list(candidates)
+        while left:
+            self._check_time()
+            if self._problem.start in (candidate.attitude for candidate in left):
+                return Motion(self._problem.agent, self._problem.start), self._problem.start
+            seed = np.random.SeedSequence([self._seed, left[0].number]).generate_state(1)
             result = plan_path(
                 self._ground.scene,
-                self._ground.car,
-                start,
-                [goal],
+                self._ground.robot,
+                self._problem.start,
+                [candidate.attitude for candidate in left],
                 int(seed[0]),
                 self._should_stop,
+                self._budget,
+                self._planner,
+                region,
             )
             if result.motion is None:
-                self._failures += 1
-                self.tried.add(goal, AttemptResult.NO_PATH, result.reason)
-                return False
-            motion = result.motion
-        end = end_of(motion, self._ground.car)
-        missed = self._problem.program.unmet(end)
-        if missed:
+                self._drop(left, AttemptResult.NO_PATH, result.reason)
+                break
+            end = end_of(result.motion, self._ground.robot)
+            missed = self._problem.program.unmet(end)
+            if not missed:
+                return result.motion, end
             self.tried.add(end, AttemptResult.NOT_SATISFIED, missed[0])
-            return False
-        candidate.motion, candidate.attitude, candidate.length = motion, end, motion.length
-        return True
+            if result.goal_index >= 0:
+                self._candidates.remove(left.pop(result.goal_index))
+            else:
+                region = None
+        return None
+
+    def _drop(self, candidates: list[Candidate], result: AttemptResult, reason: str) -> None:
+        self._failures += len(candidates)
+        for candidate in candidates:
+            self.tried.add(candidate.attitude, result, reason)
+            self._candidates.remove(candidate)
+
+    def _region(self, dead_end: bool) -> Region:
+        """Further destinations near attitudes: new ones, and no dead end unless that is wanted."""
+
+        def region(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+            ground = self._ground
+            descent = descend(self._problem.program, rows, room=ground.room)
+            states = descent.states[descent.satisfied]
+            states = states[ground.is_free(states)] if len(states) else states
+            if not len(states):
+                return states
+            good = ground.parts_of(states) == self._here
+            if not dead_end:
+                good &= ground.can_turn_round(states)
+            if self._found:
+                good &= [self._is_new(Attitude(*state)) for state in states.tolist()]
+            return np.ascontiguousarray(states[good])
+
+        return region
 
     def _is_new(self, attitude: Attitude) -> bool:
         """Whether ``attitude`` differs from all that was answered before, as much as asked for now."""

@@ -1,1 +1,1 @@
-"""Robot models: the car, its motions and their closed forms."""
+"""Robots: models, bodies, and motions in closed form."""

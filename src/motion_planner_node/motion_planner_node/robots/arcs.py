@@ -1,8 +1,8 @@
-"""Arcs of constant curvature in closed form: the solution of the paper's car model."""
+"""Pieces of motions in closed form: arcs, the solution of the paper's car model, slides, turns."""
 
 from __future__ import annotations
 
-from math import ceil, cos, nextafter, pi, sin
+from math import ceil, cos, inf, nextafter, pi, sin
 
 from motion_planner_node.robots.kernel import kernel
 
@@ -19,14 +19,28 @@ def wrap_angle(angle: float) -> float:
 
 
 @kernel
-def advance(
-    x: float, y: float, heading: float, curvature: float, length: float
-) -> tuple[float, float, float]:
-    """The attitude (x, y [m], unwrapped heading [rad]) after ``length`` [m] at ``curvature`` [1/m].
+def other_way(turn: float) -> float:
+    """The turn [rad] to the same heading the other way round; infinite for no turn at all."""
+    return inf if turn == 0.0 else (turn - 2.0 * pi if turn > 0.0 else turn + 2.0 * pi)
 
-    The chord of the arc has the heading of its middle, which stays accurate for tiny arcs.
+
+@kernel
+def advance(
+    x: float,
+    y: float,
+    heading: float,
+    curvature: float,
+    length: float,
+    direction: float = 0.0,
+    turn: float = 0.0,
+) -> tuple[float, float, float]:
+    """The attitude (x, y [m], unwrapped heading [rad]) after a piece of a motion.
+
+    The piece is an arc of signed ``length`` [m] at ``curvature`` [1/m], a slide in ``direction``
+    [rad] from the heading, or a ``turn`` [rad] on the spot.  The chord of an arc has the heading of
+    its middle, which stays accurate for tiny arcs.
     """
     half_turn = 0.5 * curvature * length
     chord = length if half_turn == 0.0 else length * (sin(half_turn) / half_turn)
-    middle = heading + half_turn
-    return x + chord * cos(middle), y + chord * sin(middle), heading + 2.0 * half_turn
+    middle = heading + half_turn + direction
+    return x + chord * cos(middle), y + chord * sin(middle), heading + 2.0 * half_turn + turn

@@ -9,7 +9,6 @@ from __future__ import annotations
 from math import acos, atan2, cos, hypot, inf, pi, sin, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from motion_planner_node.robots.kernel import kernel
 
@@ -99,36 +98,3 @@ def dubins_word(
         radius * (pi + 2.0 * base),
         radius * _turned(last * (heading1 - tangent1), exact),
     )
-
-
-@kernel
-def shortest_word(
-    radius: float,
-    x0: float,
-    y0: float,
-    heading0: float,
-    x1: float,
-    y1: float,
-    heading1: float,
-) -> tuple[int, float, float, float]:
-    """The number of the shortest word, the first of equals, and the lengths [m] of its pieces."""
-    shortest, number, pieces = inf, 0, (inf, inf, inf)
-    for word in range(6):
-        candidate = dubins_word(word, radius, x0, y0, heading0, x1, y1, heading1)
-        length = candidate[0] + candidate[1] + candidate[2]
-        if length < shortest:
-            shortest, number, pieces = length, word, candidate
-    return number, pieces[0], pieces[1], pieces[2]
-
-
-@kernel
-def shortest_lengths(
-    radius: float, starts: NDArray[np.float64], ends: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Dubins lengths [m], shape (n,), from ``starts`` to ``ends``, both of shape (n, 3)."""
-    lengths = np.empty(len(starts))
-    for i in range(len(starts)):
-        start, end = starts[i], ends[i]
-        _, a, b, c = shortest_word(radius, start[0], start[1], start[2], end[0], end[1], end[2])
-        lengths[i] = a + b + c
-    return lengths

@@ -22,6 +22,8 @@ from motion_planner_node.world.model import Bounds
 
 #: Boxes looked at before a proof is given up.
 BUDGET = 40_000
+#: Boxes whose bounds are computed at a time: a program asks before each batch whether to stop.
+BATCH = 1024
 
 
 class Bounded(Protocol):
@@ -61,6 +63,14 @@ def possible(
     program: Bounded, low: Array, high: Array, rows: Sequence[int] | None = None
 ) -> NDArray[np.bool_]:
     """Which boxes (n, 3) may hold an attitude that meets ``rows``, all by default."""
+    batches = range(0, len(low), BATCH)
+    parts = [_possible(program, low[i : i + BATCH], high[i : i + BATCH], rows) for i in batches]
+    return np.concatenate([np.ones(0, dtype=np.bool_), *parts])
+
+
+def _possible(
+    program: Bounded, low: Array, high: Array, rows: Sequence[int] | None
+) -> NDArray[np.bool_]:
     result = np.ones(len(low), dtype=np.bool_)
     functions = program.bounds(*(Interval(low[:, i], high[:, i]) for i in range(3)))
     for index in range(len(program.rows)) if rows is None else rows:

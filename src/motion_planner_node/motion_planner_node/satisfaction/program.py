@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from copy import copy
 from functools import cached_property
-from math import isfinite, isnan, pi
+from math import isfinite, isnan
 from typing import Literal
 
 import numpy as np
@@ -32,6 +33,7 @@ from motion_planner_node.satisfaction.conflicts import contradiction
 from motion_planner_node.satisfaction.evaluation import violations_at
 from motion_planner_node.satisfaction.recording import Table, record
 from motion_planner_node.satisfaction.row import Row
+from motion_planner_node.stopping import ShouldStop, go_on, never
 from motion_planner_node.world.model import Bounds, World
 
 #: Violation up to which a constraint counts as met by a destination, in the constraint's unit, for
@@ -39,7 +41,6 @@ from motion_planner_node.world.model import Bounds, World
 TOLERANCE = 1e-9
 
 _EPSILON = float(np.finfo(np.float64).eps)
-_NEVER_ZERO = float(np.nextafter(0.0, 1.0))
 
 
 class Program:
@@ -69,6 +70,7 @@ class Program:
         self.objects = preconditions.objects
         self.assigns = preconditions.assigns
         self.contradictions = contradictions
+        self._should_stop: ShouldStop = never
         self._preconditions = preconditions
         self._world = world
         self._fields = {label: world.objects[label].fields for label in self.objects}
@@ -101,6 +103,15 @@ class Program:
         vars(result).pop('conditions', None)
         result.start, result.tolerance = self._begun(start)
         return result
+
+    @contextmanager
+    def broken_off_by(self, should_stop: ShouldStop) -> Iterator[None]:
+        """Inside the block whatever is computed with the program raises Stopped when it is to stop."""
+        before, self._should_stop = self._should_stop, should_stop
+        try:
+            yield
+        finally:
+            self._should_stop = before
 
     def apply_commands(self, state: GeometricState) -> GeometricState:
         """The state after the commands, in their order; what they do not set stays as it is.
@@ -144,6 +155,7 @@ class Program:
         self, states: Array, *, derivatives: Literal['none', 'truncated', 'full'] = 'none'
     ) -> list[tuple[Dual, Dual]]:
         """The left and right sides of the constraints at ``states`` (n, 3)."""
+        go_on(self._should_stop)
         columns = np.ascontiguousarray(states.T)
         if derivatives == 'none':
             state = [Dual(column) for column in columns]
@@ -190,6 +202,7 @@ class Program:
 
     def bounds(self, x: Interval, y: Interval, heading: Interval) -> list[Interval]:
         """Bounds of the functions f_i over boxes of attitudes, headings within [-pi, pi]."""
+        go_on(self._should_stop)
         with np.errstate(all='ignore'):
             values = self._tape.run((x, y, heading), Interval.constant)
             return [row.bounds(values[row.left], values[row.right]) for row in self.rows]
@@ -227,16 +240,9 @@ class Program:
         if self.table is not None:
             return violations_at(self.table, self.conditions, np.ascontiguousarray(states))
         result = np.empty((len(states), len(self.rows)))
-        for index, (row, function) in enumerate(
-            zip(self.rows, self.functions(states), strict=True)
-        ):
-            value = function.value
-            if row.is_equality:
-                missed = np.abs(value)
-            else:
-                missed = np.maximum(value, _NEVER_ZERO if row.is_strict else 0.0)
-                missed = np.where(value < 0.0, 0.0, missed)
-            result[:, index] = np.where(np.isnan(value), pi if row.periodic else np.inf, missed)
+        functions = self.functions(states)
+        for index, (row, function) in enumerate(zip(self.rows, functions, strict=True)):
+            result[:, index] = row.missed(function.value)
         return result
 
     def satisfied(self, states: Array) -> NDArray[np.bool_]:
@@ -261,7 +267,7 @@ class Program:
         """A sentence for each constraint that ``attitude`` misses, with the value that it has."""
         state = np.array([[attitude.x, attitude.y, attitude.heading]])
         return tuple(
-            f'{row.text} not met: {_shown(left, row)}'
+            f'{row.text} not met: {row.shown(left)}'
             for row, (left, _), residual in zip(
                 self.rows, self.sides(state), self.residuals(attitude), strict=True
             )
@@ -332,13 +338,6 @@ def _components(state: GeometricState, labels: tuple[str, ...]) -> dict[str, dic
         for label in labels
         if label in state
     }
-
-
-def _shown(side: Dual, row: Row) -> str:
-    value = float(np.ravel(side.value)[0])
-    if isnan(value):
-        return 'undefined'
-    return f'{wrap_angle(value) if row.periodic else value:.6g}'
 
 
 def _not_assignable(command: Command, value: float | None) -> MotionPlannerError:

@@ -5,10 +5,8 @@ from __future__ import annotations
 from math import inf
 from typing import NamedTuple
 
-import numpy as np
-
 from motion_planner_node.world.model import Bounds
-from motion_planner_node.world.shapes import Shapes
+from motion_planner_node.world.shapes import Shapes, shapes_within
 
 
 class Room(NamedTuple):
@@ -20,11 +18,7 @@ class Room(NamedTuple):
 
 def within(bounds: Bounds) -> Room:
     """All positions within ``bounds``."""
-    edge = np.array([bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max], dtype=np.float64)
-    return Room(
-        Shapes(edge, np.zeros((0, 4)), np.zeros(1, np.int64), np.zeros((0, 3)), np.zeros((0, 4))),
-        0.0,
-    )
+    return Room(shapes_within(bounds), 0.0)
 
 
 #: No limits at all.

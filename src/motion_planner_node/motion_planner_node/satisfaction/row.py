@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi
+from math import isnan, pi
 
 import numpy as np
 
@@ -11,6 +11,8 @@ from motion_planner_node.functions import Array, Dual, Interval
 from motion_planner_node.language.syntax import Constraint
 from motion_planner_node.robots.arcs import wrap_angle
 from motion_planner_node.robots.kernel import kernel
+
+_NEVER_ZERO = float(np.nextafter(0.0, 1.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +51,22 @@ class Row:
             turns = np.round(function.value / (2.0 * pi))
             return Dual(function.value - 2.0 * pi * turns, function.gradient)
         return function
+
+    def missed(self, values: Array) -> Array:
+        """By how much the function's ``values`` miss the constraint: 0 where it holds."""
+        if self.is_equality:
+            missed = np.abs(values)
+        else:
+            missed = np.maximum(values, _NEVER_ZERO if self.is_strict else 0.0)
+            missed = np.where(values < 0.0, 0.0, missed)
+        return np.asarray(np.where(np.isnan(values), pi if self.periodic else np.inf, missed))
+
+    def shown(self, side: Dual) -> str:
+        """The value of one side at the first state, for people."""
+        value = float(np.ravel(side.value)[0])
+        if isnan(value):
+            return 'undefined'
+        return f'{wrap_angle(value) if self.periodic else value:.6g}'
 
     def bounds(self, left: Interval, right: Interval) -> Interval:
         """Bounds of ``function``; those of angles may go on beyond pi, but lie round zero."""

@@ -65,13 +65,18 @@ class Cells:
 class TravelField:
     """Estimated lengths [m] of motions between one point and all others, obstacles regarded.
 
-    The turning radius is not; see ``robots.car.dubins_lengths`` for a bound that does.
+    The turning radius is not; see ``robots.driving.shortest_between`` for a bound that does.
     """
 
     def __init__(self, grid: _Grid, distances: NDArray[np.float64], x: float, y: float) -> None:
         self._grid = grid
-        self._distances = np.pad(distances, 1, constant_values=np.inf)
-        self._origin = (x, y)
+        #: At the middles of the cells, shape (rows + 2, columns + 2), infinite all round the grid.
+        self.distances = np.pad(distances, 1, constant_values=np.inf)
+        #: The point, and the corner of the grid [m].
+        self.origin = (x, y)
+        self.corner = grid.corner
+        #: Side [m] of a cell.
+        self.cell = grid.cell
 
     def at(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Estimates [m] at points, of the shape of ``x`` and ``y``; infinite where no way leads.
@@ -86,13 +91,13 @@ class TravelField:
         j = np.floor(row).astype(np.int64)
         total, weights = np.zeros(x.shape), np.zeros(x.shape)
         for b, a in ((0, 0), (0, 1), (1, 0), (1, 1)):
-            distances = self._distances[j + b, i + a]
+            distances = self.distances[j + b, i + a]
             weight = np.abs(1 - b - (row - j)) * np.abs(1 - a - (column - i))
             weight = np.where(np.isfinite(distances), weight + 1e-12, 0.0)
             total += weight * np.where(weight > 0.0, distances, 0.0)
             weights += weight
         estimate = np.divide(total, weights, out=np.full(x.shape, np.inf), where=weights > 0.0)
-        straight = np.hypot(x - self._origin[0], y - self._origin[1])
+        straight = np.hypot(x - self.origin[0], y - self.origin[1])
         return np.asarray(np.maximum(estimate, straight))
 
 

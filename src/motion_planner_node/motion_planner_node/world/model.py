@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import tan
-from typing import ClassVar
+from math import cos, sin
 
-from motion_planner_node.robots.motion import COMPONENTS, Attitude
+import numpy as np
+from numpy.typing import NDArray
+
+from motion_planner_node.robots.robot import Robot
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,27 +53,45 @@ Obstacle = Polygon | Circle
 Region = Polygon | Circle
 
 
-@dataclass(frozen=True, slots=True)
-class CarModel:
-    """The paper's car: forward only, steering angle one of -max, 0, +max [rad].
+#: A robot of model car, as the paper's.
+CarModel = Robot
 
-    ``radius`` [m] is the disc around (x, y) that has to stay clear of obstacles and in the map.
+
+@dataclass(frozen=True, slots=True)
+class OccupancyMap:
+    """Square cells that are free or occupied; robots stay clear of the occupied ones.
+
+    name: how answers call it.
+    rows, columns: of cells; the first cell is the one at the corner, rows go north, columns east.
+    cells: a byte for each cell, row by row, 1 where it is occupied and 0 where it is free.
+    resolution: side [m] of a cell.
+    x, y, yaw: corner [m] of the first cell and the angle [rad] that the map is turned about it.
+    unknown_occupied: whether what is not known was taken for occupied; so is all that is outside.
     """
 
-    #: Components of the state vector, which constraints and commands can name.
-    components: ClassVar[tuple[str, ...]] = COMPONENTS
-
-    label: str
-    wheelbase: float
-    max_steering_angle: float
-    radius: float
-    speed: float
-    start: Attitude | None = None
+    name: str
+    rows: int
+    columns: int
+    cells: bytes = field(repr=False)
+    resolution: float
+    x: float
+    y: float
+    yaw: float
+    unknown_occupied: bool
 
     @property
-    def turning_radius(self) -> float:
-        """Radius [m] of the circle driven at the largest steering angle."""
-        return self.wheelbase / tan(self.max_steering_angle)
+    def occupied(self) -> NDArray[np.uint8]:
+        """The cells (rows, columns), 1 where occupied; cannot be written to."""
+        return np.frombuffer(self.cells, np.uint8).reshape(self.rows, self.columns)
+
+    @property
+    def bounds(self) -> Bounds:
+        """The smallest rectangle along the axes that holds all cells."""
+        width, height = self.columns * self.resolution, self.rows * self.resolution
+        c, s = (cos(self.yaw), sin(self.yaw)) if self.yaw else (1.0, 0.0)
+        xs = [self.x + c * dx - s * dy for dx in (0.0, width) for dy in (0.0, height)]
+        ys = [self.y + s * dx + c * dy for dx in (0.0, width) for dy in (0.0, height)]
+        return Bounds(min(xs), min(ys), max(xs), max(ys))
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,5 +103,6 @@ class World:
     bounds: Bounds
     objects: Mapping[str, WorldObject]
     obstacles: tuple[Obstacle, ...]
-    robots: Mapping[str, CarModel]
+    robots: Mapping[str, Robot]
     regions: Mapping[str, Region] = field(default_factory=dict)
+    map: OccupancyMap | None = None

@@ -1,90 +1,136 @@
-"""Outlines in a world file: polygons and circles, each with a name of its own."""
+"""Obstacles and regions of a world file: outlines with names, or files of them."""
 
 from __future__ import annotations
 
 from collections.abc import Container
+from dataclasses import replace
 
-import numpy as np
-
+from motion_planner_node.world.geojson import read_geojson
+from motion_planner_node.world.map_reader import MAP_NAME
 from motion_planner_node.world.model import Circle, Obstacle, Polygon, Region
+from motion_planner_node.world.outlines import read_circle, read_polygon
 from motion_planner_node.world.scene import MAP_EDGE
-from motion_planner_node.world.simple_polygon import SMALLEST_AREA, area, crossing_edges
-from motion_planner_node.world.syntax import Mapping, Node, Sequence
+from motion_planner_node.world.syntax import Mapping, Node, Place, Sequence
 from motion_planner_node.world.values import (
-    SMALLEST_LENGTH,
     Faults,
     check_count,
     check_label,
     kind_of,
-    read_at_least,
     read_fields,
-    read_numbers,
     read_text,
 )
 
 MOST_OBSTACLES = 10_000
 MOST_REGIONS = 1_000
-MOST_CORNERS = 1_000
+_KINDS = ('polygon', 'circle', 'geojson')
 
 
-def read_obstacles(node: Node, faults: Faults) -> tuple[Obstacle, ...]:
-    """The obstacles of a list; what is wrong with one goes to ``faults``."""
+def read_obstacles(node: Node, directory: str, faults: Faults) -> tuple[Obstacle, ...]:
+    """The obstacles of a list and of the files, from ``directory`` on, that it names.
+
+    What is wrong with one goes to ``faults``.
+    """
     if not isinstance(node, Sequence):
         faults.add(f'obstacles has to be a list, not {kind_of(node)}', node.place)
         return ()
     if not check_count(node, 'obstacles', MOST_OBSTACLES, faults):
         return ()
-    lines: dict[str, int] = {MAP_EDGE: 0}
+    lines: dict[str, int] = {MAP_EDGE: 0, MAP_NAME: 0}
     entries: list[tuple[str | None, dict[str, Node]]] = []
     for number, item in enumerate(node.items, 1):
         what = f'obstacle {number}'
-        fields = read_fields(item, what, (), ('name', 'polygon', 'circle'), faults)
-        if isinstance(item, Mapping) and ('polygon' in fields) == ('circle' in fields):
-            faults.add(f'{what} needs either polygon or circle', item.place)
+        fields = _fields(item, what, (), faults)
         entries.append((_name(fields, what, lines, faults), fields))
-    obstacles: list[Obstacle | None] = []
+    obstacles: list[Obstacle] = []
     for number, (given, fields) in enumerate(entries, 1):
         name = given or f'obstacle{number}'
         while given is None and name in lines:
             name += '_'
-        if 'polygon' in fields:
-            obstacles.append(_polygon(fields['polygon'], name, faults))
-        elif 'circle' in fields:
-            obstacles.append(_circle(fields['circle'], name, faults))
-    return tuple(obstacle for obstacle in obstacles if obstacle is not None)
+        if 'geojson' in fields:
+            for label, polygon in read_geojson(fields['geojson'], directory, faults):
+                own = _unused(label or name, lines)
+                lines[own] = node.place.line
+                obstacles.append(replace(polygon, name=own))
+        elif outline := _outline(fields, name, faults):
+            obstacles.append(outline)
+    if len(obstacles) > MOST_OBSTACLES:
+        message = f'{len(obstacles)} obstacles are more than the {MOST_OBSTACLES} allowed'
+        faults.add(message, node.place)
+    return tuple(obstacles)
 
 
-def read_regions(node: Node, taken: Container[str], faults: Faults) -> dict[str, Region]:
-    """The regions of a list by name, which is a label that is not ``taken`` by anything else."""
+def read_regions(
+    node: Node, directory: str, taken: Container[str], faults: Faults
+) -> dict[str, Region]:
+    """The regions of a list, and of the files that it names, by name.
+
+    A name is a label that is not ``taken`` by anything else.
+    """
     regions: dict[str, Region] = {}
     if not isinstance(node, Sequence):
         faults.add(f'regions has to be a list, not {kind_of(node)}', node.place)
         return regions
     if not check_count(node, 'regions', MOST_REGIONS, faults):
         return regions
-    for number, item in enumerate(node.items, 1):
-        what = f'region {number}'
-        fields = read_fields(item, what, ('name',), ('polygon', 'circle'), faults)
-        if isinstance(item, Mapping) and ('polygon' in fields) == ('circle' in fields):
-            faults.add(f'{what} needs either polygon or circle', item.place)
-            continue
-        name = (
-            read_text(fields['name'], f'the name of {what}', faults) if 'name' in fields else None
-        )
-        if name is None:
-            continue
-        place = fields['name'].place
+
+    def add(name: str, outline: Region | None, place: Place) -> None:
         check_label(name, place, 'a region', faults)
         if name in regions or name in taken:
             other = 'another region' if name in regions else 'an object or a robot'
             faults.add(f'{name} is the name of {other}, too', place, name)
-        if 'polygon' in fields:
-            region: Region | None = _polygon(fields['polygon'], name, faults)
-        else:
-            region = _circle(fields['circle'], name, faults)
-        if region is not None:
-            regions[name] = region
+        if outline is not None:
+            regions[name] = outline
+
+    for number, item in enumerate(node.items, 1):
+        what = f'region {number}'
+        needed = ('name',) if isinstance(item, Mapping) and not _names_file(item) else ()
+        fields = _fields(item, what, needed, faults)
+        if 'geojson' in fields:
+            place = fields['geojson'].place
+            for label, polygon in read_geojson(fields['geojson'], directory, faults):
+                if label is None:
+                    faults.add(f'{what}: {polygon.name} has no property name', place)
+                else:
+                    add(label, replace(polygon, name=label), place)
+        elif 'name' in fields:
+            name = read_text(fields['name'], f'the name of {what}', faults)
+            if name is not None and ('polygon' in fields) != ('circle' in fields):
+                add(name, _outline(fields, name, faults), fields['name'].place)
+    if len(regions) > MOST_REGIONS:
+        message = f'{len(regions)} regions are more than the {MOST_REGIONS} allowed'
+        faults.add(message, node.place)
     return regions
+
+
+def _names_file(item: Mapping) -> bool:
+    return any(key.text == 'geojson' for key, _ in item.entries)
+
+
+def _fields(item: Node, what: str, needed: tuple[str, ...], faults: Faults) -> dict[str, Node]:
+    """The keys of one entry, which is of one kind."""
+    fields = read_fields(item, what, needed, ('name', *_KINDS), faults)
+    given = [kind for kind in _KINDS if kind in fields]
+    if isinstance(item, Mapping) and len(given) != 1:
+        faults.add(f'{what} needs either polygon or circle, or geojson', item.place)
+    elif given == ['geojson'] and 'name' in fields:
+        message = f'{what}: the names of a geojson file are in its features'
+        faults.add(message, fields['name'].place)
+    return fields
+
+
+def _outline(fields: dict[str, Node], name: str, faults: Faults) -> Polygon | Circle | None:
+    if 'polygon' in fields:
+        return read_polygon(fields['polygon'], name, faults)
+    return read_circle(fields['circle'], name, faults) if 'circle' in fields else None
+
+
+def _unused(name: str, lines: Container[str]) -> str:
+    """``name``, or with the first number behind it that makes it a new one."""
+    number, result = 1, name
+    while result in lines:
+        number += 1
+        result = f'{name}_{number}'
+    return result
 
 
 def _name(fields: dict[str, Node], what: str, lines: dict[str, int], faults: Faults) -> str | None:
@@ -101,54 +147,3 @@ def _name(fields: dict[str, Node], what: str, lines: dict[str, int], faults: Fau
         return None
     lines[name] = place.line
     return name
-
-
-def _polygon(node: Node, name: str, faults: Faults) -> Polygon | None:
-    if not isinstance(node, Sequence):
-        message = f'{name}: polygon has to be a list of [x, y], not {kind_of(node)}'
-        faults.add(message, node.place)
-        return None
-    if not check_count(node, f'corners of {name}', MOST_CORNERS, faults):
-        return None
-    corners: list[tuple[float, float]] = []
-    for number, item in enumerate(node.items, 1):
-        pair = read_numbers(item, f'{name}: corner {number}', ('x', 'y'), faults)
-        if pair:
-            corners.append((pair[0], pair[1]))
-    if len(corners) < len(node.items):
-        return None
-    if len(corners) > 3 and corners[0] == corners[-1]:
-        corners.pop()
-    if len(corners) < 3:
-        faults.add(f'{name}: a polygon needs 3 corners, this has {len(corners)}', node.place)
-        return None
-    for number in range(1, len(corners)):
-        if corners[number] == corners[number - 1]:
-            message = f'{name}: corner {number + 1} repeats the one before it'
-            faults.add(message, node.items[number].place)
-            return None
-    array = np.array(corners)
-    if abs(area(array)) < SMALLEST_AREA:
-        faults.add(f'{name}: the polygon encloses no area', node.place)
-        return None
-    crossing = crossing_edges(array)
-    if crossing:
-        first, second = (edge + 1 for edge in crossing)
-        message = (
-            f'{name}: the polygon crosses or touches itself, '
-            f'at the edges that begin at corners {first} and {second}'
-        )
-        faults.add(message, node.place)
-        return None
-    return Polygon(name, tuple(corners))
-
-
-def _circle(node: Node, name: str, faults: Faults) -> Circle | None:
-    fields = read_fields(node, f'the circle of {name}', ('center', 'radius'), (), faults)
-    if len(fields) < 2:
-        return None
-    center = read_numbers(fields['center'], f'{name}: center', ('x', 'y'), faults)
-    radius = read_at_least(fields['radius'], f'{name}: radius', SMALLEST_LENGTH, faults)
-    if not center or radius is None:
-        return None
-    return Circle(name, (center[0], center[1]), radius)

@@ -13,13 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motion_planner_node.robots.kernel import kernel
-from motion_planner_node.world.clearance import clearance_at
-from motion_planner_node.world.shapes import Shapes, shapes_near
+from motion_planner_node.world.clearance import clearance_within
+from motion_planner_node.world.shapes import Shapes
 
 #: How often a doubtful cell is quartered before it is called open.
 DEEPEST = 6
-#: Cells on a side of the blocks that are looked at with the obstacles near them alone.
-BLOCK = 64
 
 
 @kernel
@@ -31,7 +29,7 @@ def _is_open(shapes: Shapes, margin: float, x: float, y: float, half: float) -> 
     stack = [(x, y, half, 0)]
     while stack:
         x, y, half, depth = stack.pop()
-        clearance = clearance_at(shapes, x, y)[0]
+        clearance = clearance_within(shapes, x, y, margin)[0]
         if clearance >= margin:
             return True
         if clearance + half * sqrt(2.0) < margin:
@@ -47,36 +45,17 @@ def _is_open(shapes: Shapes, margin: float, x: float, y: float, half: float) -> 
 
 
 @kernel
-def _open_block(
-    shapes: Shapes, margin: float, cell: float, row: int, column: int, block: NDArray[np.bool_]
-) -> None:
-    """Fill ``block`` of a grid, whose first cell is at ``row`` and ``column``."""
-    half = 0.5 * cell
-    for j in range(block.shape[0]):
-        for i in range(block.shape[1]):
-            x = shapes.bounds[0] + (column + i + 0.5) * cell
-            y = shapes.bounds[1] + (row + j + 0.5) * cell
-            block[j, i] = _is_open(shapes, margin, x, y, half)
-
-
 def open_cells(
     shapes: Shapes, margin: float, cell: float, columns: int, rows: int
 ) -> NDArray[np.bool_]:
-    """Which of the ``rows`` x ``columns`` square cells [m] from the map's corner may be free.
-
-    Block by block, as only obstacles within ``margin`` of a block can close a cell of it.
-    """
-    result = np.zeros((rows, columns), np.bool_)
-    x_min, y_min = float(shapes.bounds[0]), float(shapes.bounds[1])
-    for row in range(0, rows, BLOCK):
-        for column in range(0, columns, BLOCK):
-            size = BLOCK * cell
-            x, y = x_min + column * cell, y_min + row * cell
-            reach = margin + cell
-            near = shapes_near(shapes, x - reach, y - reach, x + size + reach, y + size + reach)
-            block = np.zeros((min(BLOCK, rows - row), min(BLOCK, columns - column)), np.bool_)
-            _open_block(near, margin, cell, row, column, block)
-            result[row : row + BLOCK, column : column + BLOCK] = block
+    """Which of the ``rows`` x ``columns`` square cells [m] from the map's corner may be free."""
+    result = np.empty((rows, columns), np.bool_)
+    half = 0.5 * cell
+    for row in range(rows):
+        for column in range(columns):
+            x = shapes.bounds[0] + (column + 0.5) * cell
+            y = shapes.bounds[1] + (row + 0.5) * cell
+            result[row, column] = _is_open(shapes, margin, x, y, half)
     return result
 
 

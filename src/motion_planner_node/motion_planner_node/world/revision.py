@@ -11,7 +11,7 @@ from motion_planner_node.world.model import World
 
 def revision_of(world: World) -> str:
     """The first 16 hexadecimal digits of SHA-256 over the content, not over source or layout."""
-    content = {
+    content: dict[str, object] = {
         'bounds': asdict(world.bounds),
         'objects': {label: dict(thing.fields) for label, thing in world.objects.items()},
         'obstacles': [asdict(obstacle) for obstacle in world.obstacles],
@@ -19,5 +19,12 @@ def revision_of(world: World) -> str:
     }
     if world.regions:
         content['regions'] = {label: asdict(region) for label, region in world.regions.items()}
+    if world.map:
+        content['map'] = {
+            'cells': hashlib.sha256(world.map.cells).hexdigest(),
+            'size': [world.map.rows, world.map.columns, world.map.resolution],
+            'origin': [world.map.x, world.map.y, world.map.yaw],
+            'outside': world.map.unknown_occupied,
+        }
     canonical = json.dumps(content, sort_keys=True, separators=(',', ':'))
     return hashlib.sha256(canonical.encode()).hexdigest()[:16]

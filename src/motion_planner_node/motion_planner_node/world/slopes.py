@@ -5,7 +5,11 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from motion_planner_node.robots.kernel import kernel
-from motion_planner_node.world.clearance import clearance_at, squared_distance_to_segment
+from motion_planner_node.world.clearance import (
+    clearance_at,
+    nearest_item,
+    squared_distance_to_segment,
+)
 from motion_planner_node.world.shapes import Shapes
 
 
@@ -20,17 +24,23 @@ def clearance_with_slope(shapes: Shapes, x: float, y: float) -> tuple[float, flo
     if which < 0:
         return clearance, *_away_from_edge(shapes, x, y)
     polygons = len(shapes.first_edge) - 1
-    if which >= polygons:
+    first, last = 0, 0
+    if which == len(shapes.boxes):
+        first = nearest_item(shapes, x, y, shapes.first_edge[-1], inf)[1]
+        last = first + 1
+    elif which < polygons:
+        first, last = shapes.first_edge[which], shapes.first_edge[which + 1]
+    if first == last:
         near_x, near_y = shapes.discs[which - polygons, 0], shapes.discs[which - polygons, 1]
         sign = 1.0
     else:
-        near_x, near_y = _nearest_point(shapes, which, x, y)
+        near_x, near_y = _nearest_point(shapes, first, last, x, y)
         sign = -1.0 if clearance < 0.0 else 1.0
     length = sqrt((x - near_x) ** 2 + (y - near_y) ** 2)
     if length == 0.0:
-        if which >= polygons:
+        if first == last:
             return clearance, 1.0, 0.0
-        return clearance, *_out_of(shapes, which, x, y)
+        return clearance, *_out_of(shapes, first, last, x, y)
     return clearance, sign * (x - near_x) / length, sign * (y - near_y) / length
 
 
@@ -48,10 +58,12 @@ def _away_from_edge(shapes: Shapes, x: float, y: float) -> tuple[float, float]:
 
 
 @kernel
-def _nearest_point(shapes: Shapes, polygon: int, x: float, y: float) -> tuple[float, float]:
-    """The point of a polygon's boundary that is nearest to (x, y)."""
+def _nearest_point(
+    shapes: Shapes, first: int, last: int, x: float, y: float
+) -> tuple[float, float]:
+    """The point of the edges from ``first`` on that is nearest to (x, y)."""
     least, near_x, near_y = inf, x, y
-    for i in range(shapes.first_edge[polygon], shapes.first_edge[polygon + 1]):
+    for i in range(first, last):
         x0, y0 = shapes.edges[i, 0], shapes.edges[i, 1]
         dx, dy = shapes.edges[i, 2] - x0, shapes.edges[i, 3] - y0
         along = ((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy)
@@ -63,10 +75,10 @@ def _nearest_point(shapes: Shapes, polygon: int, x: float, y: float) -> tuple[fl
 
 
 @kernel
-def _out_of(shapes: Shapes, polygon: int, x: float, y: float) -> tuple[float, float]:
-    """The normal, pointing out of the polygon, of the edge that (x, y) lies on."""
+def _out_of(shapes: Shapes, first: int, last: int, x: float, y: float) -> tuple[float, float]:
+    """The normal, pointing to where it is free, of the one of these edges that (x, y) lies on."""
     least, normal_x, normal_y = inf, 1.0, 0.0
-    for i in range(shapes.first_edge[polygon], shapes.first_edge[polygon + 1]):
+    for i in range(first, last):
         x0, y0, x1, y1 = shapes.edges[i]
         square = squared_distance_to_segment(x, y, x0, y0, x1, y1)
         if square < least:

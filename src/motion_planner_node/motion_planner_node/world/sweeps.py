@@ -1,246 +1,238 @@
-"""Exact collision of a disc that is driven along arcs and straight segments.
+"""Exact collision and clearance of a body that is driven along arcs, slides and turns.
 
-The distance between an arc and a straight edge is taken at an end of either, at a crossing, or
-where the edge's line comes nearest to the centre of the arc's circle.
+A motion is followed in steps: over ground where the index knows of nothing near in one stride, and
+else with the edges and discs of the buckets round each step, all of them exactly.
 """
 
 from __future__ import annotations
 
-from math import cos, hypot, pi, sin, sqrt
+from math import cos, inf, sin, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
 from motion_planner_node.robots.arcs import advance
-from motion_planner_node.robots.dubins import TURNS
+from motion_planner_node.robots.body import Body
 from motion_planner_node.robots.kernel import kernel
-from motion_planner_node.world.clearance import clearance_at, squared_distance_to_segment
+from motion_planner_node.robots.motion import Pose
+from motion_planner_node.world.bodies import (
+    moving_distance,
+    place,
+    room_in_bounds,
+    standing_distance,
+    trace_distance,
+)
+from motion_planner_node.world.clearance import clearance_within
+from motion_planner_node.world.index import FIRST, LAST, SKIP, bucket_at, empty_radius
 from motion_planner_node.world.shapes import Shapes
+from motion_planner_node.world.traces import (
+    Shift,
+    box_of,
+    move_by,
+    part,
+    shifted,
+    trace_of,
+    turn_round,
+)
+
+#: Items that are remembered so as not to be looked at twice in one step; a power of 2.
+_REMEMBERED = 64
 
 
 @kernel
-def _segments_keep_apart(
-    ax: float,
-    ay: float,
-    bx: float,
-    by: float,
-    x0: float,
-    y0: float,
-    x1: float,
-    y1: float,
-    margin: float,
-) -> bool:
-    """Whether the segment from a to b is at least ``margin`` [m] away from a straight edge."""
-    square = margin * margin
-    if (
-        squared_distance_to_segment(ax, ay, x0, y0, x1, y1) < square
-        or squared_distance_to_segment(bx, by, x0, y0, x1, y1) < square
-        or squared_distance_to_segment(x0, y0, ax, ay, bx, by) < square
-        or squared_distance_to_segment(x1, y1, ax, ay, bx, by) < square
-    ):
-        return False
-    dx, dy = bx - ax, by - ay
-    ex, ey = x1 - x0, y1 - y0
-    start_side = (x0 - ax) * dy - (y0 - ay) * dx
-    end_side = (x1 - ax) * dy - (y1 - ay) * dx
-    a_side = (ax - x0) * ey - (ay - y0) * ex
-    b_side = (bx - x0) * ey - (by - y0) * ex
-    return not (start_side * end_side < 0.0 and a_side * b_side < 0.0)
-
-
-@kernel
-def _swept(dx: float, dy: float, ux: float, uy: float, vx: float, vy: float, sweep: float) -> bool:
-    """Whether direction d is met by turning left from unit vector u by ``sweep`` [rad] up to v."""
-    if sweep >= 2.0 * pi:
-        return True
-    after_start = ux * dy - uy * dx >= 0.0
-    before_end = dx * vy - dy * vx >= 0.0
-    if sweep <= pi:
-        return after_start and before_end and (dx * (ux + vx) + dy * (uy + vy) >= 0.0)
-    return after_start or before_end
-
-
-@kernel
-def _distance_to_arc(
-    x: float,
-    y: float,
-    radius: float,
-    u: tuple[float, float],
-    v: tuple[float, float],
-    sweep: float,
+def _step_distance(
+    shapes: Shapes,
+    body: Body,
+    corners: NDArray[np.float64],
+    pose: Pose,
+    shift: Shift,
+    enough: float,
+    least: float,
 ) -> float:
-    """Distance [m] from (x, y) to an arc round the origin from direction ``u`` left to ``v``."""
-    if _swept(x, y, u[0], u[1], v[0], v[1], sweep):
-        return abs(hypot(x, y) - radius)
-    return min(
-        hypot(x - radius * u[0], y - radius * u[1]), hypot(x - radius * v[0], y - radius * v[1])
-    )
+    """The least of ``least`` and the distances [m] of everything near one step.
 
-
-@kernel
-def _arc_keeps_apart(
-    radius: float,
-    u: tuple[float, float],
-    v: tuple[float, float],
-    sweep: float,
-    x0: float,
-    y0: float,
-    x1: float,
-    y1: float,
-    margin: float,
-) -> bool:
-    """Whether an arc round the origin is at least ``margin`` [m] away from a straight edge."""
-    square = margin * margin
-    if (
-        squared_distance_to_segment(radius * u[0], radius * u[1], x0, y0, x1, y1) < square
-        or squared_distance_to_segment(radius * v[0], radius * v[1], x0, y0, x1, y1) < square
-        or _distance_to_arc(x0, y0, radius, u, v, sweep) < margin
-        or _distance_to_arc(x1, y1, radius, u, v, sweep) < margin
-    ):
-        return False
-    dx, dy = x1 - x0, y1 - y0
-    length = hypot(dx, dy)
-    dx, dy = dx / length, dy / length
-    along = -(x0 * dx + y0 * dy)
-    foot_x, foot_y = x0 + along * dx, y0 + along * dy
-    offset = hypot(foot_x, foot_y)
-    if offset >= radius:
-        return not (
-            0.0 < along < length
-            and offset - radius < margin
-            and _swept(foot_x, foot_y, u[0], u[1], v[0], v[1], sweep)
-        )
-    half_chord = sqrt(radius * radius - offset * offset)
-    for side in (-1.0, 1.0):
-        crossing = along + side * half_chord
-        if 0.0 <= crossing <= length and _swept(
-            x0 + crossing * dx, y0 + crossing * dy, u[0], u[1], v[0], v[1], sweep
-        ):
-            return False
-    return True
-
-
-@kernel
-def arc_is_free(
-    shapes: Shapes,
-    margin: float,
-    x: float,
-    y: float,
-    heading: float,
-    curvature: float,
-    length: float,
-) -> bool:
-    """Whether the disc of radius ``margin`` [m] meets no boundary on its way along one arc.
-
-    That the start is outside all obstacles is for the caller to know.
+    Once it is known to be below ``enough``, any value below that.
     """
-    end_x, end_y, _ = advance(x, y, heading, curvature, length)
-    low_x, low_y, high_x, high_y = min(x, end_x), min(y, end_y), max(x, end_x), max(y, end_y)
-    straight = curvature == 0.0
-    radius, center_x, center_y, sweep = 0.0, 0.0, 0.0, 0.0
-    u, v = (1.0, 0.0), (1.0, 0.0)
-    if not straight:
-        radius = 1.0 / abs(curvature)
-        side = 1.0 if curvature > 0.0 else -1.0
-        center_x, center_y = x - side * radius * sin(heading), y + side * radius * cos(heading)
-        sweep = length / radius
-        u = (side * sin(heading), -side * cos(heading))
-        end_heading = heading + side * sweep
-        v = (side * sin(end_heading), -side * cos(end_heading))
-        if side < 0.0:
-            u, v = v, u
-        if _swept(1.0, 0.0, u[0], u[1], v[0], v[1], sweep):
-            high_x = max(high_x, center_x + radius)
-        if _swept(-1.0, 0.0, u[0], u[1], v[0], v[1], sweep):
-            low_x = min(low_x, center_x - radius)
-        if _swept(0.0, 1.0, u[0], u[1], v[0], v[1], sweep):
-            high_y = max(high_y, center_y + radius)
-        if _swept(0.0, -1.0, u[0], u[1], v[0], v[1], sweep):
-            low_y = min(low_y, center_y - radius)
-    bounds = shapes.bounds
-    if (
-        low_x - bounds[0] < margin
-        or low_y - bounds[1] < margin
-        or bounds[2] - high_x < margin
-        or bounds[3] - high_y < margin
-    ):
-        return False
-    polygons = len(shapes.first_edge) - 1
-    for i in range(len(shapes.boxes)):
-        box = shapes.boxes[i]
-        if (
-            box[0] - high_x >= margin
-            or low_x - box[2] >= margin
-            or box[1] - high_y >= margin
-            or low_y - box[3] >= margin
-        ):
-            continue
-        if i >= polygons:
-            disc = shapes.discs[i - polygons]
-            if straight:
-                distance = sqrt(squared_distance_to_segment(disc[0], disc[1], x, y, end_x, end_y))
-            else:
-                distance = _distance_to_arc(
-                    disc[0] - center_x, disc[1] - center_y, radius, u, v, sweep
-                )
-            if distance - disc[2] < margin:
-                return False
-            continue
-        for e in range(shapes.first_edge[i], shapes.first_edge[i + 1]):
-            edge = shapes.edges[e]
-            if straight:
-                if not _segments_keep_apart(
-                    x, y, end_x, end_y, edge[0], edge[1], edge[2], edge[3], margin
-                ):
-                    return False
-            elif not _arc_keeps_apart(
-                radius,
-                u,
-                v,
-                sweep,
-                edge[0] - center_x,
-                edge[1] - center_y,
-                edge[2] - center_x,
-                edge[3] - center_y,
-                margin,
-            ):
-                return False
-    return True
+    place(body, pose, corners)
+    trace = trace_of(shift, pose[0], pose[1])
+    box = box_of(trace)
+    is_standing = shift.sweep == 0.0 and shift.dx == 0.0 and shift.dy == 0.0
+    reach = body.radius if len(corners) else 0.0
+    beyond = reach + least
+    buckets, items = shapes.buckets, shapes.items
+    first_row, first_column, _ = bucket_at(shapes.frame, buckets, box[0] - beyond, box[1] - beyond)
+    last_row, last_column, _ = bucket_at(shapes.frame, buckets, box[2] + beyond, box[3] + beyond)
+    seen = np.full(_REMEMBERED, -1)
+    for row in range(first_row, last_row + 1):
+        column = first_column
+        while column <= last_column:
+            here = column
+            column += max(int(buckets[row, here, SKIP]), 1)
+            for at in range(buckets[row, here, FIRST], buckets[row, here, LAST]):
+                item = int(items[at])
+                if seen[item % _REMEMBERED] == item:
+                    continue
+                seen[item % _REMEMBERED] = item
+                distance = trace_distance(shapes, trace, item)
+                if len(corners):
+                    if distance >= reach + least:
+                        continue
+                    if distance < body.inner_radius + enough:
+                        return -inf
+                    if is_standing:
+                        distance = standing_distance(shapes, corners, item)
+                    else:
+                        distance = moving_distance(shapes, corners, shift, item)
+                if distance < least:
+                    least = distance
+                    if least < enough:
+                        return least
+    return least
 
 
 @kernel
-def word_is_free(
+def _shift_distance(
     shapes: Shapes,
-    margin: float,
-    radius: float,
-    start: tuple[float, float, float],
-    word: int,
-    pieces: tuple[float, float, float],
-) -> bool:
-    """Whether a Dubins word with these ``pieces`` [m] is free from ``start``, itself free."""
-    x, y, heading = start
-    for i in range(3):
-        if pieces[i] > 0.0:
-            bend = TURNS[word, i] / radius
-            if not arc_is_free(shapes, margin, x, y, heading, bend, pieces[i]):
-                return False
-            x, y, heading = advance(x, y, heading, bend, pieces[i])
-    return True
+    body: Body,
+    corners: NDArray[np.float64],
+    pose: Pose,
+    shift: Shift,
+    enough: float,
+    least: float,
+) -> float:
+    """The least of ``least`` and the distances [m] to everything while ``shift`` is carried out.
+
+    From the outline of a polygon, from the middle of a disc; once it is known to be below
+    ``enough``, any value below that.
+    """
+    place(body, pose, corners)
+    least = min(least, room_in_bounds(shapes, corners, pose, shift))
+    if least < enough:
+        return least
+    if shift.sweep == 0.0:
+        length = sqrt(shift.dx * shift.dx + shift.dy * shift.dy)
+    else:
+        rx, ry = pose[0] - shift.cx, pose[1] - shift.cy
+        length = abs(shift.sweep) * sqrt(rx * rx + ry * ry)
+    size = shapes.frame[2]
+    reach = body.radius if len(corners) else 0.0
+    done = 0.0
+    while True:
+        here = shifted(part(shift, done / length), pose) if done > 0.0 else pose
+        stride = empty_radius(shapes.frame, shapes.buckets, here[0], here[1]) - reach - least
+        if stride < 0.5 * size:
+            stride = min(reach + least + 2.0 * size, length - done)
+            step = part(shift, stride / length) if stride < length else shift
+            least = _step_distance(shapes, body, corners, here, step, enough, least)
+            if least < enough:
+                return least
+        done += stride
+        if not done < length:
+            return least
+
+
+@kernel
+def _pieces_distance(
+    shapes: Shapes,
+    body: Body,
+    start: Pose,
+    pieces: NDArray[np.float64],
+    enough: float,
+    least: float,
+) -> float:
+    """The same while ``pieces`` (n, 4) are driven from ``start``, which is free."""
+    corners = np.empty_like(body.corners)
+    pose = start
+    for i in range(len(pieces)):
+        bend, length, direction, turn = pieces[i]
+        course = pose[2] + direction
+        if length != 0.0:
+            if bend == 0.0:
+                shift = move_by(length * cos(course), length * sin(course))
+            else:
+                center_x, center_y = pose[0] - sin(course) / bend, pose[1] + cos(course) / bend
+                shift = turn_round(center_x, center_y, bend * length)
+            least = _shift_distance(shapes, body, corners, pose, shift, enough, least)
+        if turn != 0.0 and len(corners) and least >= enough:
+            x, y, heading = advance(pose[0], pose[1], pose[2], bend, length, direction, 0.0)
+            shift = turn_round(x, y, turn)
+            least = _shift_distance(shapes, body, corners, (x, y, heading), shift, enough, least)
+        if least < enough:
+            return least
+        pose = advance(pose[0], pose[1], pose[2], bend, length, direction, turn)
+    return least
+
+
+@kernel
+def _standing(shapes: Shapes, body: Body, pose: Pose, enough: float, most: float) -> float:
+    """Distance [m] of a standing body from everything, at most ``most``.
+
+    From the outline of a polygon, from the middle of a disc.  Once it is known to be below
+    ``enough``, any value below that.
+    """
+    reach = body.radius if len(body.corners) else 0.0
+    clearance = clearance_within(shapes, pose[0], pose[1], reach + most)[0]
+    if len(body.corners) == 0:
+        return clearance
+    if clearance >= reach + most:
+        return most
+    if not clearance >= max(body.inner_radius + enough, 0.0):
+        return -inf
+    corners = np.empty_like(body.corners)
+    place(body, pose, corners)
+    nowhere = move_by(0.0, 0.0)
+    least = min(most, room_in_bounds(shapes, corners, pose, nowhere))
+    if least < enough:
+        return least
+    return _step_distance(shapes, body, corners, pose, nowhere, enough, least)
+
+
+@kernel
+def is_free_at(shapes: Shapes, body: Body, pose: Pose) -> bool:
+    """Whether ``body`` can stand at ``pose``."""
+    return _standing(shapes, body, pose, body.margin, body.margin) >= body.margin
+
+
+@kernel
+def are_free(shapes: Shapes, body: Body, attitudes: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """At which of ``attitudes`` (n, 3) the ``body`` can stand, shape (n,)."""
+    result = np.empty(len(attitudes), np.bool_)
+    for i in range(len(attitudes)):
+        pose = (attitudes[i, 0], attitudes[i, 1], attitudes[i, 2])
+        result[i] = is_free_at(shapes, body, pose)
+    return result
+
+
+@kernel
+def word_is_free(shapes: Shapes, body: Body, start: Pose, pieces: NDArray[np.float64]) -> bool:
+    """Whether driving ``pieces`` (n, 4) is free from ``start``, itself free.
+
+    Pieces are rows of curvature [1/m], length [m], direction [rad] and turn [rad].
+    """
+    margin = body.margin
+    return _pieces_distance(shapes, body, start, pieces, margin, margin) >= margin
 
 
 @kernel
 def chain_is_free(
-    shapes: Shapes,
-    margin: float,
-    start: NDArray[np.float64],
-    chain: NDArray[np.float64],
+    shapes: Shapes, body: Body, start: NDArray[np.float64], pieces: NDArray[np.float64]
 ) -> bool:
-    """Whether driving ``chain`` (n, 2), rows of curvature [1/m] and length [m], is free."""
-    x, y, heading = start[0], start[1], start[2]
-    if clearance_at(shapes, x, y)[0] < margin:
-        return False
-    for i in range(len(chain)):
-        if not arc_is_free(shapes, margin, x, y, heading, chain[i, 0], chain[i, 1]):
-            return False
-        x, y, heading = advance(x, y, heading, chain[i, 0], chain[i, 1])
-    return True
+    """Whether driving ``pieces`` (n, 4) from ``start`` (3,) is free, as `word_is_free` does."""
+    pose = (start[0], start[1], start[2])
+    return is_free_at(shapes, body, pose) and word_is_free(shapes, body, pose, pieces)
+
+
+@kernel
+def chain_clearance(
+    shapes: Shapes, body: Body, start: NDArray[np.float64], pieces: NDArray[np.float64]
+) -> float:
+    """Least distance [m] of the body from obstacles and bounds while ``pieces`` (n, 4) are driven.
+
+    0 when the body hits one.
+    """
+    pose = (start[0], start[1], start[2])
+    touching = 0.0 if len(body.corners) else body.radius
+    least = _standing(shapes, body, pose, touching, inf)
+    if least > touching:
+        least = _pieces_distance(shapes, body, pose, pieces, touching, least)
+    return max(least - touching, 0.0)

@@ -67,9 +67,9 @@ def _place_of(mark: yaml.Mark | None) -> Place:
     return Place(mark.line + 1, mark.column + 1) if mark else Place(1, 1)
 
 
-def _check_characters(text: str, source: str) -> None:
-    if len(text) > LONGEST_TEXT:
-        message = f'the text has {len(text)} characters, more than the {LONGEST_TEXT} allowed'
+def _check_characters(text: str, source: str, most: int) -> None:
+    if len(text) > most:
+        message = f'the text has {len(text)} characters, more than the {most} allowed'
         raise refusal(message, source, None)
     found = _UNPRINTABLE.search(text)
     if found:
@@ -128,13 +128,13 @@ class _Builder:
         return mapping
 
 
-def read_tree(text: str, source: str) -> Node:
-    """The tree of the one YAML document in ``text``; ``source`` names it in errors.
+def read_tree(text: str, source: str, most: int = LONGEST_TEXT) -> Node:
+    """The tree of the one YAML or JSON document in ``text``; ``source`` names it in errors.
 
-    Raises MotionPlannerError (NO_WORLD) with line and column when it is too long, nested too
-    deeply, no text, not YAML, or uses anchors, aliases or tags.
+    Raises MotionPlannerError (NO_WORLD) with line and column when it is longer than ``most``, nested
+    too deeply, no text, not YAML, or uses anchors, aliases or tags.
     """
-    _check_characters(text, source)
+    _check_characters(text, source, most)
     try:
         return _Builder(iter(yaml.parse(text, Loader=_LOADER)), source).document()
     except yaml.MarkedYAMLError as error:

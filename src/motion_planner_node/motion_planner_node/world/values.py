@@ -46,12 +46,26 @@ class Faults:
             )
         )
 
+    def include(self, others: Faults) -> None:
+        """Take over the faults of another file, after those noted so far."""
+        room = MOST_FAULTS - len(self._diagnostics)
+        self._left_out += others._left_out + max(len(others._diagnostics) - room, 0)
+        self._diagnostics += others._diagnostics[:room]
+
     def __bool__(self) -> bool:
         return bool(self._diagnostics)
 
     def error(self) -> MotionPlannerError:
         """The error (NO_WORLD) with all faults, of which there is at least one, in their order."""
-        diagnostics = sorted(self._diagnostics, key=lambda fault: (fault.line, fault.column))
+        diagnostics = sorted(
+            self._diagnostics,
+            key=lambda fault: (
+                fault.source != self._source,
+                fault.source,
+                fault.line,
+                fault.column,
+            ),
+        )
         if self._left_out:
             message = f'and {self._left_out} more faults'
             diagnostics.append(Diagnostic(message, source=self._source, code=Code.NO_WORLD))

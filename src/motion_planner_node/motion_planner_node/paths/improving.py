@@ -1,0 +1,65 @@
+"""Make a path shorter: between its ends, and by ending it elsewhere in the region of destinations."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from motion_planner_node.paths.edges import Rows, edge_lengths
+from motion_planner_node.paths.query import Query
+from motion_planner_node.paths.shortening import densified, shortened
+from motion_planner_node.paths.shots import best_ending
+
+#: Attitudes along a path, random moves and rounds.
+LOOK = (14, 80, 1)
+#: Attitudes round which destinations are looked for in one refinement.
+PROBES = 48
+#: Attitudes along a path that are left for a better destination.
+LEAVES = 20
+#: Share of the path, from its end, near which the probes are.
+TAIL = 0.4
+
+
+def length_of(query: Query, path: Rows) -> float:
+    """Length [m] of ``path`` (n, 3)."""
+    return float(edge_lengths(query.frame, path).sum())
+
+
+def simplified(query: Query, path: Rows, number: int = 0) -> Rows:
+    """A path between the same ends that is not longer; ``number`` tells calls apart."""
+    points, moves, rounds = LOOK
+    for draws in query.random(1, number).uniform(-1.0, 1.0, (rounds, 1, moves, 3)):
+        query.check_time()
+        path = shortened(query.frame, path, points, 2.0 * query.reach, draws)
+    return path
+
+
+def refined(query: Query, path: Rows) -> Rows:
+    """A path that is not longer and may end at another destination of the region."""
+    if query.region is None:
+        return path
+    length = length_of(query, path)
+    for number in range(query.budget.refinements):
+        query.check_time()
+        if not length > 0.0:
+            break
+        random = query.random(2, number)
+        along = densified(query.frame, path, length / LEAVES, 0.0)
+        ends = query.region(_probes(query, along, random, 0.5**number))
+        if not len(ends):
+            continue
+        ways = np.concatenate(([0.0], np.cumsum(edge_lengths(query.frame, along))))
+        shorter, leave, end = best_ending(query.frame, along, ways, ends, length)
+        if leave < 0:
+            continue
+        candidate = simplified(query, np.vstack((along[: leave + 1], ends[end])), 1 + number)
+        if shorter < length:
+            path, length = candidate, length_of(query, candidate)
+    return path
+
+
+def _probes(query: Query, along: Rows, random: np.random.Generator, scale: float) -> Rows:
+    """Attitudes (n, 3) round those of the last part of a path."""
+    tail = along[int((1.0 - TAIL) * len(along)) :]
+    spread = scale * query.reach
+    chosen = tail[random.integers(len(tail), size=PROBES)]
+    return chosen + random.normal(size=(PROBES, 3)) * (spread, spread, 0.5)

@@ -1,0 +1,80 @@
+"""Steering functions: motions between two attitudes without regard to obstacles, as words.
+
+A word is a motion of a fixed kind of pieces.  Pieces are rows (curvature [1/m], signed length [m],
+direction [rad], turn [rad]) as in `motion.Segment`; rows of zeros are no motion.
+"""
+
+from __future__ import annotations
+
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motion_planner_node.robots.kernel import kernel
+from motion_planner_node.robots.motion import Pose
+from motion_planner_node.robots.registry import MODELS, word_of_model
+
+#: Pieces of a word at most.
+MOST_PIECES = 5
+
+_COUNTS = np.array([model.words for model in MODELS.values()])
+
+
+@kernel
+def words(steering: int) -> int:
+    """How many words the model number ``steering`` has."""
+    return int(_COUNTS[steering])
+
+
+@kernel
+def word(
+    steering: int,
+    radius: float,
+    number: int,
+    start: Pose,
+    end: Pose,
+    pieces: NDArray[np.float64],
+) -> float:
+    """Write word ``number`` from ``start`` to ``end`` to ``pieces`` (5, 4); return its length [m].
+
+    ``radius`` [m] is the turning radius, 0 for models that turn on the spot.  The length, the sum
+    of the pieces' absolute lengths, is infinite when there is no such word.
+    """
+    pieces[:] = 0.0
+    return word_of_model(steering, radius, number, start, end, pieces)
+
+
+@kernel
+def shortest_word(
+    steering: int, radius: float, start: Pose, end: Pose, pieces: NDArray[np.float64]
+) -> tuple[float, int]:
+    """Write the shortest word, the first of equals, to ``pieces`` (5, 4).
+
+    Returns its length [m] and its number; infinite and -1 when there is none.
+    """
+    shortest, chosen = inf, -1
+    for number in range(words(steering)):
+        length = word(steering, radius, number, start, end, pieces)
+        if length < shortest:
+            shortest, chosen = length, number
+    if chosen >= 0:
+        word(steering, radius, chosen, start, end, pieces)
+    return shortest, chosen
+
+
+@kernel
+def shortest_lengths(
+    steering: int, radius: float, starts: NDArray[np.float64], ends: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Lengths [m], shape (n,), of the shortest words from ``starts`` to ``ends``, both (n, 3)."""
+    lengths = np.empty(len(starts))
+    pieces = np.zeros((MOST_PIECES, 4))
+    for i in range(len(starts)):
+        start = (starts[i, 0], starts[i, 1], starts[i, 2])
+        end = (ends[i, 0], ends[i, 1], ends[i, 2])
+        shortest = inf
+        for number in range(words(steering)):
+            shortest = min(shortest, word(steering, radius, number, start, end, pieces))
+        lengths[i] = shortest
+    return lengths
