@@ -138,8 +138,16 @@ def _descend_once(
     if program.table is None:
         ends = _descend_opaque(program, margin, room, options.limits, begin)
     else:
+        shapes, clearance = room
         ends = descend_primitive(
-            program.table, program.conditions, margin, room, options.limits, begin, steps
+            program.table,
+            program.conditions,
+            margin,
+            shapes,
+            clearance,
+            options.limits,
+            begin,
+            steps,
         )
     satisfied = ends.satisfied
     if room.clearance > -np.inf:
@@ -151,7 +159,7 @@ def _descend_opaque(
     program: Program, margin: float, room: Room, limits: Limits, states: Array
 ) -> Ends:
     """Descents whose functions are evaluated by numpy, all that are going on at a time."""
-    conditions = with_room(program.conditions, room, margin)
+    conditions = with_room(program.conditions, room.clearance, margin)
     heads = np.empty((len(states), HEAD))
     memories = np.empty((len(states), len(conditions), MEMORY))
     start_all(heads, states, limits)

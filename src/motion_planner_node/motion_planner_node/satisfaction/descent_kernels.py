@@ -35,6 +35,7 @@ from motion_planner_node.satisfaction.machine import (
 )
 from motion_planner_node.satisfaction.recording import Table
 from motion_planner_node.satisfaction.room import Room
+from motion_planner_node.world.shapes import OpenShapes, Shapes, opened
 from motion_planner_node.world.slopes import clearance_with_slope
 
 
@@ -68,18 +69,25 @@ class _Bench(NamedTuple):
     missed: Array
 
 
+class _OpenRoom(NamedTuple):
+    """A `Room` in inner loops."""
+
+    shapes: OpenShapes
+    clearance: float
+
+
 @kernel
-def with_room(conditions: Array, room: Room, margin: float) -> Array:
-    """The ``conditions`` (m, 4) of a program, and one more for the room, if it has limits."""
+def with_room(conditions: Array, clearance: float, margin: float) -> Array:
+    """The ``conditions`` (m, 4) of a program, and one for a room's ``clearance`` [m], if finite."""
     count = len(conditions)
-    result = np.zeros((count + (1 if room.clearance > -inf else 0), 4))
+    result = np.zeros((count + (1 if clearance > -inf else 0), 4))
     result[:count] = conditions
     result[count:, 3] = 0.75 * margin
     return result
 
 
 @part
-def _tell_room(room: Room, head: Array, margin: float, told: Array) -> None:
+def _tell_room(room: _OpenRoom, head: Array, margin: float, told: Array) -> None:
     """Fill the last row of ``told``: how much clearance the trial lacks, and its slopes."""
     clearance, by_x, by_y = clearance_with_slope(room.shapes, head[TRIAL], head[TRIAL + 1])
     last = len(told) - 1
@@ -89,7 +97,7 @@ def _tell_room(room: Room, head: Array, margin: float, told: Array) -> None:
 
 @part
 def _is_satisfied(
-    conditions: Array, margin: float, room: Room, head: Array, violations: Array
+    conditions: Array, margin: float, room: _OpenRoom, head: Array, violations: Array
 ) -> bool:
     """Whether the best place of a descent will do; ``violations`` (m,) are those there."""
     result = True
@@ -103,7 +111,7 @@ def _is_satisfied(
 
 @part
 def _descend(
-    table: Table, room: Room, limits: Limits, asked: Array, margin: float, bench: _Bench
+    table: Table, room: _OpenRoom, limits: Limits, asked: Array, margin: float, bench: _Bench
 ) -> None:
     """Run a machine from its start to its end; the values are then those at its best place."""
     conditions, head, told = asked[: len(table.outputs)], bench.head, bench.told
@@ -124,7 +132,7 @@ def _descend(
 @part
 def _descend_all(
     table: Table,
-    room: Room,
+    room: _OpenRoom,
     limits: Limits,
     asked: Array,
     margin: float,
@@ -159,13 +167,15 @@ def descend_primitive(
     table: Table,
     conditions: Array,
     margin: float,
-    room: Room,
+    shapes: Shapes,
+    clearance: float,
     limits: Limits,
     states: Array,
     steps: Array,
 ) -> Ends:
     """Descend from each of ``states`` (n, 3), from each of ``steps`` (k, 3) away until one succeeds.
 
+    ``shapes`` and ``clearance`` [m] are those of a `Room`, which is slow to pass from Python.
     Where no descent succeeds the end is that of the first.
     """
     count, constraints = len(states), len(conditions)
@@ -176,7 +186,8 @@ def descend_primitive(
         np.zeros(count, np.int64),
     )
     values, gradients = workspace(table)
-    asked = with_room(conditions, room, margin)
+    room = _OpenRoom(opened(shapes), clearance)
+    asked = with_room(conditions, clearance, margin)
     rows = len(asked)
     head, memory, told = np.empty(HEAD), np.empty((rows, MEMORY)), np.zeros((rows, 4))
     bench = _Bench(head, memory, told, values, gradients, np.empty(constraints))
@@ -207,10 +218,11 @@ def tell_all(
     ``conditions`` are those of ``with_room``.
     """
     limited = room.clearance > -inf
+    inner = _OpenRoom(opened(room.shapes), room.clearance)
     constraints = len(conditions) - (1 if limited else 0)
     for index in range(len(lanes)):
         head, memory = heads[lanes[index]], memories[lanes[index]]
         penalise(conditions[:constraints], margin, told[index])
         if limited:
-            _tell_room(room, head, margin, told[index])
+            _tell_room(inner, head, margin, told[index])
         advance(head, memory, limits, told[index], conditions)
