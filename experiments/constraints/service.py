@@ -8,31 +8,18 @@ motion planner reads, checks, compiles and solves the constraints, and hands out
 
 from __future__ import annotations
 
-import os
-import signal
 import statistics
-import subprocess
-import sys
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from math import atan2, cos, pi, remainder, sin, tau
 from time import perf_counter
 from typing import Any
 
-import rclpy
 from geohtn_msgs import msg, srv
 from rcl_interfaces.srv import GetParameterTypes
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 
 from experiments.constraints.sets import AGENT, WORLD, ConstraintSet, read_map
+from experiments.exchange import client, motion_planner, own_namespace
 
-#: [s] for the node to start, which includes compiling where nothing is compiled yet.
-PATIENCE = 120.0
-#: [s] after which a request is sent again: discovery can lose the first response.
-LOST = 3.0
-#: [s] for all exchanges together, and for the node to end when it is asked to.
-DEADLINE, GOODBYE = 300.0, 20.0
 #: Exchanges before the measurement begins.
 WARM_UP = 30
 
@@ -43,11 +30,15 @@ _BARE = GetParameterTypes.Request(names=['time_budget'])
 
 def measure(take_photo: ConstraintSet, count: int) -> dict[str, Any]:
     """Median times [ms] of ``count`` exchanges of each kind, taken in turns."""
-    namespace = f'experiment_constraints_{os.getpid()}'
+    namespace = own_namespace('constraints')
+    services = {
+        GetParameterTypes: 'motion_planner_node/get_parameter_types',
+        srv.SatisfyPreconditions: 'satisfy_preconditions',
+    }
     target = read_map()['objects'][take_photo.objects[0]]
     asked = [_request(take_photo, target, k) for k in range(WARM_UP + count)]
     refused = _request(take_photo, target, 0, revision='another')
-    with motion_planner(namespace), client(namespace) as exchange:
+    with motion_planner(namespace, WORLD), client(namespace, services) as exchange:
         kinds: dict[str, Call] = {
             'bare': lambda _: exchange(GetParameterTypes, _BARE),
             'refused': lambda _: exchange(srv.SatisfyPreconditions, refused),
@@ -74,61 +65,6 @@ def measure(take_photo: ConstraintSet, count: int) -> dict[str, Any]:
         'within_the_node_ms': statistics.median(within),
         'more_than_bare_ms': medians['take_photo'] - medians['bare'],
     }
-
-
-@contextmanager
-def motion_planner(namespace: str) -> Iterator[None]:
-    """The motion planner's node in a process of its own, with the map of the sets."""
-    arguments = ['--ros-args', '-r', f'__ns:=/{namespace}', '-p', f'world:={WORLD}']
-    process = subprocess.Popen(
-        [sys.executable, '-m', 'motion_planner_node.node', *arguments],
-        stderr=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
-        start_new_session=True,
-    )
-    try:
-        yield
-    finally:
-        process.send_signal(signal.SIGINT)
-        try:
-            process.wait(GOODBYE)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-
-
-@contextmanager
-def client(namespace: str) -> Iterator[Callable[[Any, Any], Any]]:
-    """A function that sends a request to the motion planner and waits for the response."""
-    rclpy.init(args=[])
-    node = Node('experiment', namespace=f'/{namespace}')
-    executor = SingleThreadedExecutor()
-    try:
-        executor.add_node(node)
-        names = {
-            GetParameterTypes: 'motion_planner_node/get_parameter_types',
-            srv.SatisfyPreconditions: 'satisfy_preconditions',
-        }
-        clients = {kind: node.create_client(kind, name) for kind, name in names.items()}
-        if not all(each.wait_for_service(PATIENCE) for each in clients.values()):
-            raise SystemExit('the motion planner did not start')
-        end = perf_counter() + DEADLINE
-
-        def exchange(kind: Any, request: Any) -> Any:
-            future, sent = clients[kind].call_async(request), perf_counter()
-            while not future.done():
-                executor.spin_once(1.0)
-                if perf_counter() > end:
-                    raise SystemExit(f'the exchanges took more than {DEADLINE:.0f} s')
-                if perf_counter() - sent > LOST:
-                    future, sent = clients[kind].call_async(request), perf_counter()
-            return future.result()
-
-        yield exchange
-    finally:
-        executor.shutdown()
-        node.destroy_node()
-        rclpy.try_shutdown()
 
 
 def _request(

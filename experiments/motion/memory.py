@@ -42,10 +42,8 @@ SHARE = 0.1
 
 def measure(place: Place, requests: int = 10_000, early: int = 1_000) -> dict[str, Any]:
     """Resident memory [MB] after ``early`` requests and after all ``requests``, all different."""
-    path = place.folder / f'{place.name}_world.yaml'
-    path.write_text(place.text, encoding='utf-8')
     done = subprocess.run(
-        [sys.executable, '-m', __spec__.name, str(path), str(requests), str(early)],
+        [sys.executable, '-m', __spec__.name, str(place.write()), str(requests), str(early)],
         cwd=ROOT,
         stdout=subprocess.PIPE,
         check=True,

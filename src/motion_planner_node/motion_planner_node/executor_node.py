@@ -83,22 +83,22 @@ class AtMost(CallbackGroup):
     def __init__(self, most: int) -> None:
         super().__init__()
         self._most = most
-        self._running = 0
+        self._running: list[object] = []
         self._lock = threading.Lock()
 
     def can_execute(self, entity: object) -> bool:
-        """Whether one more may begin."""
-        return self._running < self._most
+        """Whether one more callback, that of ``entity``, may begin."""
+        return self.has_entity(entity) and len(self._running) < self._most
 
     def beginning_execution(self, entity: object) -> bool:
         """Count one more, if it may begin."""
         with self._lock:
-            if self._running >= self._most:
-                return False
-            self._running += 1
-            return True
+            may_begin = self.can_execute(entity)
+            if may_begin:
+                self._running.append(entity)
+            return may_begin
 
     def ending_execution(self, entity: object) -> None:
         """One has ended."""
         with self._lock:
-            self._running -= 1
+            self._running.remove(entity)

@@ -161,7 +161,7 @@ def test_the_nearest_of_several_goals_is_driven_to(rover: Scene) -> None:
         (Attitude(20, 20, 0), Attitude(413, 50, 0), PathOutcome.GOAL_IN_OBSTACLE, '3.000 m from'),
         (Attitude(20, 20, 0), Attitude(2, 50, 0), PathOutcome.GOAL_IN_OBSTACLE, "the map's edge"),
         (Attitude(20, 20, 0), Attitude(600, 50, 0), PathOutcome.UNREACHABLE, 'walled off'),
-        (Attitude(7, 300, pi), Attitude(200, 300, 0), PathOutcome.NO_PATH, '2000 iterations'),
+        (Attitude(7, 300, pi), Attitude(200, 300, 0), PathOutcome.NO_PATH, 'all that there are'),
     ],
 )
 def test_failures_are_told_apart(
@@ -203,7 +203,15 @@ def test_it_stops_when_told() -> None:
 
     facing_the_edge = Attitude(7, 300, pi)
     with pytest.raises(Stopped):
-        plan_path(scene_of(), CAR, facing_the_edge, [Attitude(9, 20, 0)], 1, after_a_while)
+        plan_path(
+            scene_of(),
+            CAR,
+            facing_the_edge,
+            [Attitude(9, 20, 0)],
+            1,
+            after_a_while,
+            planner='rrt_connect',
+        )
     assert asked == 21
 
 
@@ -218,7 +226,15 @@ def test_an_error_in_should_stop_comes_out() -> None:
         return False
 
     with pytest.raises(KeyError, match='broken'):
-        plan_path(scene_of(), CAR, Attitude(7, 300, pi), [Attitude(9, 20, 0)], 1, broken)
+        plan_path(
+            scene_of(),
+            CAR,
+            Attitude(7, 300, pi),
+            [Attitude(9, 20, 0)],
+            1,
+            broken,
+            planner='rrt_connect',
+        )
 
 
 def test_iterations_bound_the_search() -> None:
@@ -231,7 +247,16 @@ def test_iterations_bound_the_search() -> None:
 
     goal = Attitude(200, 300, 0)
     budget = PathBudget(iterations=50)
-    plan_path(scene_of(), CAR, Attitude(7, 300, pi), [goal], 1, count, budget)
+    plan_path(
+        scene_of(),
+        CAR,
+        Attitude(7, 300, pi),
+        [goal],
+        1,
+        count,
+        budget,
+        planner='rrt_connect',
+    )
     assert 40 <= asked <= 60
 
 

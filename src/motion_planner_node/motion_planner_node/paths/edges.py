@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf
+from math import hypot, inf
 
 import numpy as np
 from numba import typeof, types
@@ -89,6 +89,8 @@ def free_word(
     Returns its length [m] and number, infinite and -1 when there is none; ``start`` and ``end`` are
     attitudes (3,), the first of them free.
     """
+    if not hypot(end[0] - start[0], end[1] - start[1]) < longest:
+        return inf, -1
     here, there = (start[0], start[1], start[2]), (end[0], end[1], end[2])
     count = words(frame.steering)
     lengths = np.empty(count)

@@ -12,9 +12,9 @@ from motion_planner_node.paths.shots import best_ending
 #: Attitudes along a path, random moves and rounds.
 LOOK = (14, 80, 1)
 #: Attitudes round which destinations are looked for in one refinement.
-PROBES = 48
+PROBES = 32
 #: Attitudes along a path that are left for a better destination.
-LEAVES = 20
+LEAVES = 14
 #: Share of the path, from its end, near which the probes are.
 TAIL = 0.4
 

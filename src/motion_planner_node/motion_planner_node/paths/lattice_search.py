@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from motion_planner_node.paths.edges import Row, Rows
+from motion_planner_node.paths.edges import Row, Rows, edge_lengths
 from motion_planner_node.paths.lattice import (
     EXHAUSTED,
     GOES_ON,
@@ -144,6 +144,11 @@ def _search(query: Query, level: Level, longest: float) -> Rows | None:
             if path is not None or end.state == EXHAUSTED:
                 break
         turn *= 2
+    if path is not None and backward.path is None and backward.state == GOES_ON:
+        # Another destination may be nearer than the one that was driven to.
+        backward.lattice.best[0] = edge_lengths(query.frame, path).sum()
+        shorter = backward.go_on(turn)
+        path = path if shorter is None else shorter
     if path is None:
         count = sum(expanded(end.lattice) for end in ends)
         query.hopeless = any(end.state == EXHAUSTED for end in ends)

@@ -188,9 +188,11 @@ class Stream:
         estimates = self._ground.estimates(self._problem.start, states)
         if len(states):
             self._spread = max(self._spread, float(np.ptp(states[:, :2], axis=0).max()))
+        # Those of one round differ from each other.
+        earlier = tuple(self._seen)
         for index, state in enumerate(states):
             attitude = Attitude(*(float(number) for number in state))
-            if not all(_differ(attitude, seen, SAME, SAME) for seen in self._seen):
+            if not all(_differ(attitude, seen, SAME, SAME) for seen in earlier):
                 continue
             self._seen.append(attitude)
             if not free[index]:

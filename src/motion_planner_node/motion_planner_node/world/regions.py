@@ -83,17 +83,12 @@ def components(cells: NDArray[np.bool_]) -> NDArray[np.int32]:
 
 
 @kernel
-def _arrival(times: NDArray[np.float64], j: int, i: int, cell: float) -> float:
-    """Distance at a cell whose neighbours have ``times``: upwind solution of |grad| = 1."""
-    rows, columns = times.shape
-    a = min(
-        times[j, i - 1] if i > 0 else inf,
-        times[j, i + 1] if i + 1 < columns else inf,
-    )
-    b = min(times[j - 1, i] if j > 0 else inf, times[j + 1, i] if j + 1 < rows else inf)
+def _arrival(times: NDArray[np.float64], k: int, width: int, cell: float) -> float:
+    """Distance at cell k whose neighbours have ``times``: upwind solution of |grad| = 1."""
+    a, b = min(times[k - 1], times[k + 1]), min(times[k - width], times[k + width])
     if abs(a - b) >= cell:
-        return min(a, b) + cell
-    return 0.5 * (a + b + sqrt(2.0 * cell * cell - (a - b) * (a - b)))
+        return float(min(a, b) + cell)
+    return float(0.5 * (a + b + sqrt(2.0 * cell * cell - (a - b) * (a - b))))
 
 
 @kernel
@@ -106,28 +101,32 @@ def travel_distances(
     (1996).  Infinite where the cells do not lead; nothing else than an estimate anywhere.
     """
     rows, columns = cells.shape
-    times = np.full((rows, columns), inf)
-    done = np.zeros((rows, columns), np.bool_)
-    heap = [(0.0, 0, 0)]
+    # Row by row with a frame of closed cells, so that every cell has four neighbours.
+    width = columns + 2
+    times = np.full((rows + 2) * width, inf)
+    waits = np.zeros((rows + 2) * width, np.bool_)
+    for row in range(rows):
+        for column in range(columns):
+            waits[(row + 1) * width + column + 1] = cells[row, column]
+    heap = [(0.0, 0)]
     heap.pop()
     j0 = min(max(int(y / cell), 0), rows - 1)
     i0 = min(max(int(x / cell), 0), columns - 1)
     for j in range(max(j0 - 1, 0), min(j0 + 2, rows)):
         for i in range(max(i0 - 1, 0), min(i0 + 2, columns)):
             if cells[j, i]:
-                times[j, i] = hypot((i + 0.5) * cell - x, (j + 0.5) * cell - y)
-                heappush(heap, (times[j, i], j, i))
+                k = (j + 1) * width + i + 1
+                times[k] = hypot((i + 0.5) * cell - x, (j + 0.5) * cell - y)
+                heappush(heap, (times[k], k))
     while heap:
-        _, j, i = heappop(heap)
-        if done[j, i]:
+        _, k = heappop(heap)
+        if not waits[k]:
             continue
-        done[j, i] = True
-        for step in range(4):
-            b = j + (step == 0) - (step == 1)
-            a = i + (step == 2) - (step == 3)
-            if 0 <= b < rows and 0 <= a < columns and cells[b, a] and not done[b, a]:
-                arrival = _arrival(times, b, a, cell)
-                if arrival < times[b, a]:
-                    times[b, a] = arrival
-                    heappush(heap, (arrival, b, a))
-    return times
+        waits[k] = False
+        for neighbour in (k - 1, k + 1, k - width, k + width):
+            if waits[neighbour]:
+                arrival = _arrival(times, neighbour, width, cell)
+                if arrival < times[neighbour]:
+                    times[neighbour] = arrival
+                    heappush(heap, (arrival, neighbour))
+    return times.reshape((rows + 2, width))[1:-1, 1:-1].copy()

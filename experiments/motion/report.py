@@ -1,0 +1,134 @@
+"""The experiment's figures as tables of text, for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from datetime import datetime, timezone
+from typing import Any
+
+from experiments.constraints.report import table
+from experiments.motion.curve import NO_PATH
+
+INTRODUCTION = """\
+# How short, how fast and how safe motions are
+
+The figures of `make experiment-motion` on one machine, written by the experiment itself
+(`python -m experiments.motion.run --page docs/motion-benchmark.md`).
+
+- **Worlds**: the paper's (`rover`), a maze with gates half as wide again as the car (`maze`), an open field with
+  200 round obstacles (`field`), an office on a map image (`office`) and a map of 4,000 by 4,000 cells (`park`). All are
+  made by `experiments/motion/worlds.py` and `maps.py`.
+- **Requests** are drawn at random: a free start attitude, and constraints on the attitude to drive to: a photo under an
+  angle, a place near an object, a place and heading for docking, a ring from which an object is in view, an angle to an
+  object and a distance from two, a ring with a heading. The motion planner chooses the destination and the path.
+- **The reference** (`python -m experiments.motion.reference`) is an exhaustive search of its own over x, y and heading:
+  the car's three commands, 32 headings, each step a 32nd of a full turn, cells of three quarters of a step, where nothing is
+  found once more with 48 headings; words of Dubins from the states near the goal to attitudes of the goal; then local moves of the
+  whole way and of its end within the goal, until nothing gets shorter. It shares no code with the motion planner. Its lengths
+  are upper bounds of the shortest; where the motion planner is shorter, ratios are below 1. Requests
+  that it searched in vain are left out; how many is told.
+- **The judge** of motions integrates the car's equations of motion and measures with shapely
+  (`tests/support/vehicle.py`); ends are judged by `experiments/constraints/judge.py`.
+- **The usual way** is OMPL's RRTConnect in a Dubins space with its path simplifier, again and again until the time is
+  up, the best path counting; points along motions are looked up in a map of distances. Paths that the simplifier
+  broke count as they were before.
+"""
+
+
+def request_table(worlds: Mapping[str, Mapping[str, Any]]) -> str:
+    """How the requests were met."""
+    rows = [
+        (
+            name,
+            figures['requests'],
+            f'{figures["success"]:.1%}',
+            f'{figures["ratio_p50"]:.3f}',
+            f'{figures["ratio_p95"]:.3f}',
+            f'{figures["ratio_max"]:.2f}',
+            f'{figures["ms_p50"]:.1f}',
+            f'{figures["ms_p95"]:.1f}',
+            f'{figures["motions"]}',
+            figures['refused_motions'],
+        )
+        for name, figures in worlds.items()
+    ]
+    head = (
+        'world', 'requests', 'success', 'length p50', 'p95', 'worst', 'ms p50', 'p95', 'motions',
+        'refused',
+    )  # fmt: skip
+    return table(head, rows)
+
+
+def reference_table(references: Mapping[str, Mapping[str, int]]) -> str:
+    """What the reference covers."""
+    rows = [
+        (name, figures['solved'], figures['searched_in_vain'], figures['broken_off'])
+        for name, figures in references.items()
+    ]
+    return table(('world', 'solved', 'searched exhaustively in vain', 'broken off'), rows)
+
+
+def curve_table(curve: Mapping[str, Any]) -> str:
+    """Ours at several budgets beside the usual way in the same time."""
+    rows = [
+        (
+            name,
+            f'{point["milliseconds"]:.1f} ms',
+            f'{point["ratio"]:.3f}',
+            f'{point["success"]:.1%}',
+            _factor(curve['shorter_at_equal_time'][name]),
+            f'{curve["faster_at_equal_length"][name]:.1f}',
+        )
+        for name, point in curve['ours'].items()
+    ]
+    head = (
+        'budget', 'time p50', 'length p50', 'success', 'usual way, same time: times longer',
+        'usual way, same length: times slower',
+    )  # fmt: skip
+    return table(head, rows)
+
+
+def planner_table(worlds: Mapping[str, Mapping[str, Any]]) -> str:
+    """All planners on the same legs."""
+    rows = [
+        (
+            world,
+            name,
+            f'{figures["success"]:.0%}',
+            f'{figures["ms_p50"]:.1f}',
+            f'{figures["ms_p95"]:.1f}',
+            *(
+                '' if figures[key] is None else f'{figures[key]:.3f}'
+                for key in ('ratio_p50', 'ratio_p95')
+            ),
+        )
+        for world, measured in worlds.items()
+        for name, figures in measured['planners'].items()
+    ]
+    head = ('world', 'planner', 'success', 'ms p50', 'p95', 'length p50', 'p95')
+    return table(head, rows)
+
+
+def figure_table(figures: Mapping[str, Any]) -> str:
+    """Names and figures, one in a row."""
+    rows = [
+        (name.replace('_', ' '), f'{value:.4g}' if isinstance(value, float) else value)
+        for name, value in figures.items()
+        if isinstance(value, int | float)
+    ]
+    return table(('', ''), rows)
+
+
+def _factor(value: float) -> str:
+    return 'no path' if value >= NO_PATH else f'{value:.2f}'
+
+
+def page(
+    sections: Iterable[tuple[str, str]], machine: Mapping[str, Any], images: Iterable[str]
+) -> str:
+    """docs/motion-benchmark.md."""
+    today = datetime.now(timezone.utc).date().isoformat()
+    where = f'{machine["cores"]} cores of {machine["cpu"]}, Python {machine["python"]}'
+    body = '\n\n'.join(f'## {title}\n\n{text}' for title, text in sections)
+    pictures = '\n\n'.join(f'![{name}](images/{name}.png)' for name in images)
+    return f'{INTRODUCTION}\nMeasured on {today}, {where}.\n\n{body}\n\n{pictures}\n'

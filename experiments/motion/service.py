@@ -1,0 +1,57 @@
+"""What requests cost through the service of a node, beside the time that the node spends on them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from geohtn_msgs import msg, srv
+
+from experiments.exchange import client, motion_planner, own_namespace
+from experiments.motion.goals import AGENT
+from experiments.motion.reference import Known
+from experiments.motion.worlds import Place
+
+#: Exchanges before the measurement begins.
+WARM_UP = 10
+
+
+def measure(place: Place, known: Sequence[Known]) -> dict[str, Any]:
+    """Times [ms] of requests as the client and as the node see them."""
+    namespace = own_namespace('motion')
+    outside, inside, lost = [], [], 0
+    with (
+        motion_planner(namespace, place.write()),
+        client(namespace, {srv.SatisfyPreconditions: 'satisfy_preconditions'}) as exchange,
+    ):
+        for number, one in enumerate([*known[:WARM_UP], *known]):
+            x, y, heading = one.start
+            request = srv.SatisfyPreconditions.Request(
+                request=msg.GeometricRequest(
+                    preconditions=one.text,
+                    agent=AGENT,
+                    start=[msg.AgentState(agent=AGENT, x=x, y=y, heading=heading)],
+                    # Another seed where a request comes a second time: nothing is remembered.
+                    seed=one.number + (number < WARM_UP) * 1_000_000,
+                )
+            )
+            began = perf_counter()
+            answer = exchange(srv.SatisfyPreconditions, request).answer
+            took = 1e3 * (perf_counter() - began)
+            if number >= WARM_UP:
+                outside.append(took)
+                inside.append(1e3 * answer.time_spent)
+                lost += answer.status != msg.GeometricAnswer.FOUND
+    more = np.subtract(outside, inside)
+    return {
+        'requests': len(inside),
+        'not_found': lost,
+        'node_ms_p50': float(np.median(inside)),
+        'node_ms_p95': float(np.percentile(inside, 95)),
+        'client_ms_p50': float(np.median(outside)),
+        'client_ms_p95': float(np.percentile(outside, 95)),
+        'more_ms_p50': float(np.median(more)),
+        'more_ms_p95': float(np.percentile(more, 95)),
+    }

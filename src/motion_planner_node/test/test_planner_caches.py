@@ -1,0 +1,86 @@
+"""What is kept between requests saves work, changes no answer, and is bounded."""
+
+from __future__ import annotations
+
+from math import pi
+from pathlib import Path
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from motion_planner_node.codes import Status
+from motion_planner_node.parameters import Parameters
+from motion_planner_node.planner import MOST_GROUNDS, MotionPlanner
+from motion_planner_node.planning.cache import Cache
+from motion_planner_node.requests import AdviceRequest, GeometricRequest
+from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.world import read_world
+
+WORLD = Path(__file__).resolve().parents[2] / 'interface_node' / 'missions' / 'rover' / 'world.yaml'
+TEXT = WORLD.read_text(encoding='utf-8')
+ROVER = read_world(TEXT, 'world.yaml')
+ROBOTS = MOST_GROUNDS + 2
+MANY = read_world(
+    'bounds: [0, 0, 80, 60]\nobjects: {tree: {x: 60, y: 30}}\nrobots:\n'
+    + ''.join(
+        f'  r{i}: {{model: car, wheelbase: 1, max_steering_angle: 0.5, radius: 1.{i}, speed: 1}}\n'
+        for i in range(ROBOTS)
+    ),
+    'many.yaml',
+)
+#: One that forgets nearly at once and one that remembers, both asked all that comes.
+FORGETFUL = MotionPlanner(ROVER, Parameters(cache_size=1))
+MINDFUL = MotionPlanner(ROVER)
+NEAR = '((agent {0})(object {1})(distance({0}, {1}) <= {2}))'
+
+requests = st.builds(
+    lambda label, distance, x, y, heading, alternative, seed: GeometricRequest(
+        NEAR.format('rover0', label, distance),
+        {'rover0': Attitude(x, y, heading)},
+        alternative=alternative,
+        seed=seed,
+    ),
+    st.sampled_from(['location1', 'location3', 'location8']),
+    st.sampled_from([30, 90]),
+    st.sampled_from([20.0, 400.0]),
+    st.sampled_from([20.0, 300.0]),
+    st.floats(-pi, pi, exclude_min=True),
+    st.integers(0, 2),
+    st.integers(0, 3),
+)
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.lists(requests, min_size=1, max_size=3))
+def test_answers_are_the_same_with_and_without_what_is_kept(asked: list[GeometricRequest]) -> None:
+    for request in [*asked, asked[0]]:
+        texts = tuple(dict.fromkeys(other.preconditions for other in asked))
+        advice = AdviceRequest(texts, request.start, seed=request.seed, pairwise=True)
+        fresh = MotionPlanner(ROVER)
+        answers = fresh.satisfy(request), fresh.advise(advice)
+        for planner in (FORGETFUL, MINDFUL):
+            assert (planner.satisfy(request), planner.advise(advice)) == answers
+
+
+def test_more_robots_than_are_kept_are_answered_as_ever() -> None:
+    planner = MotionPlanner(MANY)
+    planner.prepare()
+    asked = [
+        GeometricRequest(NEAR.format(f'r{i}', 'tree', 9), {f'r{i}': Attitude(9.0, 9.0, 0.0)})
+        for i in [*range(ROBOTS), 0]
+    ]
+    answers = [planner.satisfy(request) for request in asked]
+    assert {answer.status for answer in answers} == {Status.FOUND}
+    assert answers[0] == answers[-1]
+    assert len(planner._grounds) == MOST_GROUNDS
+
+
+def test_a_cache_tells_what_it_forgets_and_makes_it_anew() -> None:
+    forgotten: list[int] = []
+    cache: Cache[str, int] = Cache(2, forgotten.append)
+    for key, value in (('a', 1), ('b', 2), ('a', 9), ('c', 3), ('b', 4)):
+        cache.get(key, lambda value=value: value)
+    assert forgotten == [2, 1]
+    assert cache.get('c', lambda: 0) == 3
+    cache.clear()
+    assert len(cache) == 0
