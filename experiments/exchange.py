@@ -20,6 +20,8 @@ from rclpy.node import Node
 PATIENCE = 120.0
 #: [s] after which a request is sent again: discovery can lose the first response.
 LOST = 3.0
+#: [s] for all exchanges of a client together, and for the node to end when it is asked to.
+DEADLINE, GOODBYE = 600.0, 20.0
 
 #: Sends a request of a type of service, and gives the response.
 Exchange = Callable[[Any, Any], Any]
@@ -44,7 +46,11 @@ def motion_planner(namespace: str, world: Path) -> Iterator[int]:
         yield process.pid
     finally:
         process.send_signal(signal.SIGINT)
-        process.wait()
+        try:
+            process.wait(GOODBYE)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
 
 
 @contextmanager
@@ -61,11 +67,14 @@ def client(namespace: str, services: Mapping[Any, str]) -> Iterator[Exchange]:
         clients = {kind: node.create_client(kind, name) for kind, name in services.items()}
         if not all(each.wait_for_service(PATIENCE) for each in clients.values()):
             raise SystemExit('the motion planner did not start')
+        end = perf_counter() + DEADLINE
 
         def exchange(kind: Any, request: Any) -> Any:
             future, sent = clients[kind].call_async(request), perf_counter()
             while not future.done():
                 executor.spin_once(1.0)
+                if perf_counter() > end:
+                    raise SystemExit(f'the exchanges took more than {DEADLINE:.0f} s')
                 if perf_counter() - sent > LOST:
                     future, sent = clients[kind].call_async(request), perf_counter()
             return future.result()

@@ -19,12 +19,15 @@ from experiments.constraints.search import Bench
 from experiments.constraints.sets import AGENT, read_sets
 from motion_planner_node.errors import MotionPlannerError
 from motion_planner_node.language import check, parse, to_text
+from motion_planner_node.planner import warm_up
 from motion_planner_node.robots.motion import Attitude
-from motion_planner_node.satisfaction import compile_program
+from motion_planner_node.satisfaction import DescentOptions, compile_program, descend
 from motion_planner_node.world.model import World
 
 #: [s] of processor time that one text may take.
 PATIENCE = 1.0
+#: Descents that look for an attitude that meets what the checker calls a contradiction.
+STARTS = 8
 
 FIGURE_2 = """((agent ?r)(object ?o)
 (setProperty(?r.x,?o.x))
@@ -84,6 +87,8 @@ TOKENS: tuple[str, ...] = (
     ),
 )
 WORD = re.compile(r'[\w.?-]+|[^\w\s]')
+COMPARATOR = re.compile(r'[<>]=?|!?=')
+COMPARATORS = ('<', '<=', '>', '>=', '=', '!=')
 
 
 class Texts:
@@ -91,12 +96,20 @@ class Texts:
 
     def __init__(self, seed: int) -> None:
         self._random = random.Random(seed)
-        self._origins = (
-            FIGURE_2,
-            FIGURE_3,
-            LOOSE,
-            *(constraints.text for constraints in read_sets()),
-        )
+        sets = read_sets()
+        self._origins = (FIGURE_2, FIGURE_3, LOOSE, *(constraints.text for constraints in sets))
+        labels = {
+            f'({concept} {label})'
+            for each in sets
+            for concept, known in (
+                ('agent', each.agents),
+                ('object', each.objects),
+                ('region', each.regions),
+            )
+            for label in known
+        }
+        self._statements = ''.join(sorted(labels))
+        self._constraints = tuple(text for each in sets for text in each.constraints)
         self._mutations: tuple[Callable[[str], str], ...] = (
             self._without,
             self._with_token,
@@ -104,6 +117,7 @@ class Texts:
             self._with_another_word,
             self._with_another_word,
             self._with_another_word,
+            self._recombined,
             self._swapped,
             self._repeated,
             self._cut,
@@ -144,6 +158,18 @@ class Texts:
         word = self._random.choice(words)
         return text[: word.start()] + self._random.choice(others) + text[word.end() :]
 
+    def _recombined(self, _text: str) -> str:
+        """A new text of constraints that may well exclude each other."""
+        several = self._random.choices(self._constraints, k=self._random.randint(1, 3))
+        several += self._random.choices(several, k=self._random.randint(0, 3))
+        changed = (
+            COMPARATOR.sub(lambda _: self._random.choice(COMPARATORS), each, count=1)
+            if self._random.random() < 0.5
+            else each
+            for each in several
+        )
+        return self._statements + ''.join(f'({each})' for each in changed)
+
     def _swapped(self, text: str) -> str:
         low, high = sorted(self._random.randint(0, len(text)) for _ in range(2))
         return text[high:] + text[low:high] + text[:low]
@@ -170,11 +196,18 @@ class Texts:
 
 
 class Reader:
-    """Reads texts to the end: parser, checker, printer and compiler."""
+    """Reads texts to the end: parser, checker, printer and compiler.
+
+    What the checker calls a contradiction must not hold anywhere on the way of a few descents.
+    """
 
     def __init__(self) -> None:
-        self.world: World = Bench().world
+        warm_up()
+        bench = Bench()
+        self.world: World = bench.world
+        self._starts = bench.starts(1, STARTS)
         state = {label: robot.start for label, robot in self.world.robots.items() if robot.start}
+        self.contradictions = 0
         self._state = {**state, AGENT: Attitude(400.0, 300.0, 0.0)}
 
     def read(self, text: str) -> bool:
@@ -192,10 +225,16 @@ class Reader:
         found = (*check(preconditions, None), *check(preconditions, self.world))
         assert all(each.message for each in found)
         try:
-            compile_program(preconditions, self.world, self._state)
+            program = compile_program(preconditions, self.world, self._state)
         except MotionPlannerError as error:
             return not str(error)
-        return True
+        if program.contradictions:
+            self.contradictions += 1
+            descent = descend(program, self._starts, DescentOptions(retries=0))
+            # Within the tolerance of ``=``, ``<`` and ``!=`` of the same number hold beside it.
+            holds = descent.satisfied & (descent.violations == 0.0).all(axis=1)
+            assert not holds.any(), 'what is called a contradiction holds'
+        return not found
 
 
 @contextmanager
@@ -214,8 +253,10 @@ def time_limit() -> Iterator[None]:
         signal.signal(signal.SIGVTALRM, before)
 
 
-def fuzz(seed: int, count: int) -> tuple[int, float]:
-    """Read ``count`` texts; returns how many had no errors, and the longest time [s] of one.
+def fuzz(seed: int, count: int) -> tuple[int, int, float]:
+    """Read ``count`` texts: how many had no errors, how many were contradictions, the longest time.
+
+    The time is that of the processor [s] for one text.
 
     Raises AssertionError with the text and what it did.
     """
@@ -230,7 +271,7 @@ def fuzz(seed: int, count: int) -> tuple[int, float]:
             message = f'text {number} of seed {seed}: {type(fault).__name__}: {fault}\n{shown!r}'
             raise AssertionError(message) from fault
         longest = max(longest, time.process_time() - began)
-    return valid, longest
+    return valid, reader.contradictions, longest
 
 
 def main() -> int:
@@ -240,13 +281,13 @@ def main() -> int:
     parser.add_argument('--seed', type=int, default=1, help='where to begin (default: 1)')
     arguments = parser.parse_args()
     try:
-        valid, longest = fuzz(arguments.seed, arguments.texts)
+        valid, contradictions, longest = fuzz(arguments.seed, arguments.texts)
     except AssertionError as fault:
         print(ascii(str(fault)), file=sys.stderr)
         return 1
     print(
-        f'{arguments.texts} texts: {valid} without errors, the others refused; '
-        f'the slowest took {1e3 * longest:.0f} ms'
+        f'{arguments.texts} texts: {valid} without errors, {contradictions} contradictions, '
+        f'the others refused; the slowest took {1e3 * longest:.0f} ms'
     )
     return 0
 

@@ -22,8 +22,9 @@ def reader() -> Reader:
 
 def test_broken_texts_are_read_or_refused() -> None:
     """``make fuzz`` tries 100,000."""
-    valid, longest = fuzz(seed=20, count=2000)
+    valid, contradictions, longest = fuzz(seed=20, count=2000)
     assert valid > 20, 'hardly a text is without errors: the fuzzing reaches the parser only'
+    assert contradictions > 20
     assert longest < PATIENCE
 
 

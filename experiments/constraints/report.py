@@ -22,7 +22,8 @@ The figures of `make experiment-constraints` on one machine, written by the expe
   unknowns is faster than numpy (`experiments/constraints/formulations.py`); variables are scaled; SLSQP and IPOPT
   look for the nearest attitude. All methods get the same starts and are asked for 1e-9, and a result within
   1e-6 counts, wherever it lies. A peer's time is its median per start divided by its success; the best peer
-  is the one with the least. None of the peers has batches, so batches are set against the same time.
+  is the one with the least. None of the peers has batches, so batches are set against the same time, the slower
+  of both sizes. Everything runs on one thread, and times are what that thread spends on its processor.
 - **Compiling** is apart: two processes are started one after the other with an empty cache of compiled code.
 - **The service** is asked for take_photo from attitudes that meet it, each another one, so that nothing is remembered
   and no path is planned; the bare exchange is a parameter service of the same node.

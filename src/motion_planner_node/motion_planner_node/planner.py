@@ -27,6 +27,7 @@ from motion_planner_node.requests import (
 )
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.robots.robot import Robot
+from motion_planner_node.satisfaction import Program
 from motion_planner_node.stopping import ShouldStop, never
 from motion_planner_node.world import Scene
 from motion_planner_node.world.model import (
@@ -56,6 +57,7 @@ class MotionPlanner:
         size = self._parameters.cache_size
         self._texts: Cache[str, Preconditions] = Cache(size)
         self._remarks: Cache[str, tuple[Diagnostic, ...]] = Cache(size)
+        self._programs: Cache[tuple[str, str], Program] = Cache(size)
         self._streams: Cache[object, Stream] = Cache(size)
         self._advisor = Advisor(world, self._parameters, self._parsed, self._ground)
 
@@ -84,7 +86,11 @@ class MotionPlanner:
             remarks = self._remarks.get(
                 request.preconditions, lambda: check(preconditions, self.world)
             )
-            problem = read_problem(self.world, preconditions, state, request.agent, remarks)
+            text = request.preconditions, request.agent
+            problem = read_problem(
+                self.world, preconditions, state, request.agent, remarks, self._programs.known(text)
+            )
+            self._programs.get(text, lambda: problem.program)
             if problem.program.assigns:
                 return answers.assigned(problem, self._ground, request.alternative)
         except MotionPlannerError as error:

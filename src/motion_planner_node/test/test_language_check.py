@@ -139,6 +139,18 @@ def test_variables_and_a_missing_world_leave_labels_open() -> None:
         '(distance(?r, ?o) + distance(?r, ?o) * distance(?r, ?o) <= -3)',
         '(50 <= 10)',
         '(?r.x < ?r.x)',
+        '(?r.x = 5)(?r.x != 5)',
+        '(?r.x != ?o.x)(2 * ?o.x - 2 * ?r.x = 0)',
+        '(?r.x != 5)(?r.x >= 5)(?r.x <= 5)',
+        '(?r.x >= 5)(?r.x != 5)(?r.x <= 5 + 1e-10)',
+        '(?r.x = 5)(?r.x + 3 > 8)',
+        '(?r.x = 5)(5 > ?r.x)',
+        '(?r.x >= 0)(?r.x = 5)(?r.x <= 9)(?r.x < 5)',
+        '(?r.heading = 1)(?r.heading != 1)',
+        '(?r.heading != pi)(?r.heading = -pi)',
+        '(rel_angle(?r, ?o) = cos-and-sin(pi/2))(rel_angle(?r, ?o) != cos-and-sin(pi/2))',
+        '(?r.x != ?r.x)',
+        '(5 != 5)',
     ],
 )
 def test_contradictions_show_without_any_world(constraints: str) -> None:
@@ -154,8 +166,40 @@ def test_a_contradiction_names_both_constraints() -> None:
 
 
 @pytest.mark.parametrize(
+    ('constraints', 'words'),
+    [
+        (
+            '(2 * distance(?r, ?o) - 20 >= 100)(distance(?r, ?o) <= 50)',
+            'distance(?o, ?r) cannot be at least 60 and at most 50',
+        ),
+        ('(?r.x + 1 = 6)(?r.x != 5)', '?r.x cannot be equal to 5 and other than 5'),
+        (
+            '(?r.x >= 5)(?r.x * 2 <= 10)(?r.x != 5)',
+            'exclude each other: ?r.x cannot be at least 5, at most 5 and other than 5',
+        ),
+        (
+            '(?r.heading = deg(90))(?r.heading = 0)',
+            '?r.heading cannot be equal to 1.570796327 and equal to 0',
+        ),
+    ],
+)
+def test_a_contradiction_tells_the_numbers_that_are_not_in_the_text(
+    constraints: str, words: str
+) -> None:
+    (found,) = check(parse(VARIABLE + constraints), None)
+    assert words in found.message
+
+
+@pytest.mark.parametrize(
     'constraints',
     [
+        '(?r.x = 5)(?r.x != 6)',
+        '(?r.x != 5)(?r.x != 5)',
+        '(?r.x >= 5)(?r.x <= 5.00001)(?r.x != 5)',
+        '(?r.heading = 1)(?r.heading != 2)',
+        '(?r.heading > 1)(?r.heading != 1)',
+        '(?r.heading = 0)(?r.heading >= -pi)(?r.heading <= pi)',
+        '(?r.x = 5)(?r.y != 5)',
         '(distance(?r, ?o) >= 50)(distance(?r, ?o) <= 50)',
         '(distance(?r, ?o) >= 50)(distance(?r, ?o) <= 60)(distance(?r, ?o) = 55)',
         '(?r.heading = pi)(?r.heading = -pi)',

@@ -130,7 +130,7 @@ def test_near_collinear_trilateration_is_solved_from_anywhere() -> None:
         np.array([[x, y]] * int(descent.satisfied.sum())), abs=1e-4
     )
     once = descend(compiled, starts, DescentOptions(retries=0))
-    assert once.satisfied.mean() < 0.8
+    assert once.satisfied.mean() < 0.95
     assert (descent.states[once.satisfied] == once.states[once.satisfied]).all()
 
 

@@ -45,6 +45,35 @@ def code_of(text: str, start: GeometricState = START, agent: str = '') -> Code:
     return caught.value.code
 
 
+@settings(max_examples=40, deadline=None)
+@given(st.floats(-1e6, 1e6), st.floats(-1e6, 1e6), st.floats(-3.0, 3.0), st.booleans())
+def test_a_program_from_another_start_is_as_if_compiled_there(
+    x: float, y: float, heading: float, has_table: bool
+) -> None:
+    text = '(agent rover1)' + TAKE_PHOTO + '(rover0.x + rover1.x != rover1.heading)'
+    text += '' if has_table else '(clearance(rover0) >= 1)'
+    here = {**START, 'rover1': Attitude(1.0, 2.0, 3.0)}
+    there = {**here, 'rover0': Attitude(x, y, heading)}
+    moved, compiled = program(text, here).starting_at(there), program(text, there)
+    assert moved is not None
+    assert (moved.table is None) == (not has_table)
+    assert (moved.start, moved.tolerance) == (compiled.start, compiled.tolerance)
+    assert (moved.conditions == compiled.conditions).all()
+    states = np.random.default_rng(0).uniform(-300.0, 300.0, (50, 3))
+    assert (moved.violations(states) == compiled.violations(states)).all()
+
+
+def test_another_program_is_compiled_anew() -> None:
+    text = '(agent rover1)(distance(rover0, rover1) >= 5)'
+    here = {**START, 'rover1': Attitude(1.0, 2.0, 3.0)}
+    compiled = program(text, here)
+    assert compiled.starting_at(here) is not None
+    assert compiled.starting_at({**here, 'rover1': Attitude(1.0, 2.0, 4.0)}) is None
+    assert compiled.starting_at({'rover1': here['rover1']}) is None
+    assert compiled.starting_at(START) is None
+    assert program('(setProperty(rover0.y, 7))').starting_at(START) is None
+
+
 def test_commands_are_carried_out_in_their_order() -> None:
     text = """(setProperty(rover0.x, location0.x)) (setProperty(rover0.y, rover0.x + 5))
               (setProperty(rover0.x, -1)) (setProperty(rover0.heading, 3 * pi / 2))"""

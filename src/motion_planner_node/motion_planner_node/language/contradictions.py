@@ -6,9 +6,9 @@ terms bound the same quantity, and their bounds are compared. This works on text
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from math import inf, isfinite, nan, pi, remainder
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from math import isfinite, nan, pi, remainder
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 from motion_planner_node.codes import Code
 from motion_planner_node.errors import Diagnostic
 from motion_planner_node.functions import Interval
+from motion_planner_node.language.conditions import APART
 from motion_planner_node.language.linear import Linear, linear
 from motion_planner_node.language.printer import number_to_text, to_text
-from motion_planner_node.language.syntax import Condition, Constraint
+from motion_planner_node.language.syntax import Call, Condition, Constraint, Number
 from motion_planner_node.language.tape import Tape
 
 _TOLERANCE = 1e-9
@@ -26,18 +27,96 @@ _TOLERANCE = 1e-9
 #: Beyond this [rad] doubles no longer tell what an angle is modulo 2 pi.
 _LARGEST_ANGLE = 1e6
 
-_FLIPPED = {'<': '>', '<=': '>=', '>': '<', '>=': '<=', '=': '='}
+_FLIPPED = {'<': '>', '<=': '>=', '>': '<', '>=': '<=', '=': '=', '!=': '!='}
+
+_WORDS = {
+    '<': 'less than',
+    '<=': 'at most',
+    '>': 'more than',
+    '>=': 'at least',
+    '=': 'equal to',
+    '!=': 'other than',
+}
 
 
 @dataclass(frozen=True, slots=True)
 class _Bound:
-    """``quantity`` compared with ``value``: one constraint with its terms on the left."""
+    """``quantity`` compared with ``value``: one constraint with its terms on the left.
+
+    ``apart`` is by how much ``!=`` keeps the quantity away from the value.
+    """
 
     quantity: tuple[tuple[str, float], ...]
     comparator: str
     value: float
     periodic: bool
+    apart: float
     item: Constraint | Condition
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether the text says what the value is, or whether there is none to tell."""
+        if isinstance(self.item, Condition):
+            return True
+        return Number(self.value) in {self.item.left, self.item.right}
+
+    @property
+    def name(self) -> str:
+        """The quantity as a sum."""
+        terms = [
+            name if factor == 1.0 else f'{number_to_text(factor)} * {name}'
+            for name, factor in self.quantity
+        ]
+        return ' + '.join(terms)
+
+
+@dataclass(slots=True)
+class _Known:
+    """What constraints that can hold together say of one quantity."""
+
+    low: _Bound | None = None
+    high: _Bound | None = None
+    angle: _Bound | None = None
+    excluded: list[_Bound] = field(default_factory=list)
+
+    def add(self, bound: _Bound) -> tuple[_Bound, ...]:
+        """Take note of ``bound``; or else the bounds with which it cannot hold together."""
+        if bound.periodic:
+            return self._add_angle(bound)
+        low, high = self.low, self.high
+        if bound.comparator in {'>', '>=', '='} and (low is None or _is_tighter(bound, low, 1.0)):
+            low = bound
+        if bound.comparator in {'<', '<=', '='} and (
+            high is None or _is_tighter(bound, high, -1.0)
+        ):
+            high = bound
+        others: tuple[_Bound | None, ...] = ()
+        if low is not None and high is not None:
+            if _exclude(low, high):
+                others = low, high
+            for apart in (bound,) if bound.comparator == '!=' else self.excluded:
+                if not others and _pinned(low, high, apart):
+                    others = low, high, apart
+        found = tuple(dict.fromkeys(item for item in others if item and item is not bound))
+        if not found:
+            self.low, self.high = low, high
+            if bound.comparator == '!=':
+                self.excluded.append(bound)
+        return found
+
+    def _add_angle(self, bound: _Bound) -> tuple[_Bound, ...]:
+        if bound.comparator == '!=':
+            if self.angle and _is_same_angle(self.angle, bound):
+                return (self.angle,)
+            self.excluded.append(bound)
+            return ()
+        if self.angle and not _is_same_angle(self.angle, bound):
+            return (self.angle,)
+        for other in self.excluded:
+            if _is_same_angle(bound, other):
+                return (other,)
+        self.angle = self.angle or bound
+        return ()
 
 
 def contradictions(
@@ -49,22 +128,18 @@ def contradictions(
     2 pi. The items have to be free of other errors.
     """
     found: list[Diagnostic] = []
-    bounds: dict[tuple[tuple[str, float], ...], list[_Bound]] = {}
+    known: dict[tuple[bool, tuple[tuple[str, float], ...]], _Known] = {}
     for item, constraint, modulo in items:
         form = linear(constraint.left).plus(linear(constraint.right), -1.0)
         reason = _never_holds(constraint, form, modulo)
         if reason:
             found.append(_diagnostic(item, f'{to_text(item)} never holds: {reason}'))
             continue
-        bound = _bound(item, constraint, form, modulo) if form.terms else None
-        if bound is None:
-            continue
-        others = bounds.setdefault(bound.quantity, [])
-        for other in others:
-            if _exclude(other, bound):
-                found.append(_diagnostic(item, _sentence(other, bound)))
-                break
-        others.append(bound)
+        bound = _bound(item, constraint, modulo)
+        if bound is not None:
+            others = known.setdefault((bound.periodic, bound.quantity), _Known()).add(bound)
+            if others:
+                found.append(_diagnostic(item, _sentence((*others, bound))))
     return tuple(found)
 
 
@@ -72,8 +147,14 @@ def _diagnostic(item: Constraint | Condition, message: str) -> Diagnostic:
     return Diagnostic(message, item.line, item.column, to_text(item), code=Code.CONTRADICTION)
 
 
-def _sentence(first: _Bound, second: _Bound) -> str:
-    return f'{to_text(first.item)} and {to_text(second.item)} exclude each other'
+def _sentence(bounds: tuple[_Bound, ...]) -> str:
+    """Who excludes whom; and the numbers, where they do not stand in the text like that."""
+    *first, last = (to_text(bound.item) for bound in bounds)
+    sentence = f'{", ".join(first)} and {last} exclude each other'
+    if all(bound.is_plain for bound in bounds):
+        return sentence
+    *least, most = (f'{_WORDS[bound.comparator]} {_rounded(bound.value)}' for bound in bounds)
+    return f'{sentence}: {bounds[0].name} cannot be {", ".join(least)} and {most}'
 
 
 def _never_holds(constraint: Constraint, form: Linear, periodic: bool) -> str:
@@ -109,7 +190,7 @@ def _never_holds(constraint: Constraint, form: Linear, periodic: bool) -> str:
     return 'the two sides cannot come together'
 
 
-def _rounded(value: np.float64 | NDArray[np.float64]) -> str:
+def _rounded(value: float | NDArray[np.float64]) -> str:
     return number_to_text(round(float(value), 9) + 0.0)
 
 
@@ -124,27 +205,39 @@ def _holds(comparator: str, difference: float, slack: float) -> bool:
     }[comparator]
 
 
-def _exclude(first: _Bound, second: _Bound) -> bool:
-    if first.periodic or second.periodic:
-        both = first.periodic and second.periodic
-        return both and abs(remainder(first.value - second.value, 2.0 * pi)) > _TOLERANCE
-    (low, low_strict), (high, high_strict) = _range((first, second))
-    slack = _TOLERANCE * max(1.0, abs(first.value))
-    return low > high + slack or (low >= high and (low_strict or high_strict))
+def _is_tighter(one: _Bound, other: _Bound, sign: float) -> bool:
+    """Whether a lower (sign 1) or upper bound (-1) allows less than the other."""
+    first, second = sign * one.value, sign * other.value
+    is_strict = one.comparator in {'<', '>'} and other.comparator not in {'<', '>'}
+    return first > second or (first == second and is_strict)
 
 
-def _range(bounds: Sequence[_Bound]) -> tuple[tuple[float, bool], tuple[float, bool]]:
-    """The highest lower and the lowest upper bound, each with whether it is strict."""
-    lower = [(b.value, b.comparator == '>') for b in bounds if b.comparator in {'>', '>=', '='}]
-    upper = [(b.value, b.comparator != '<') for b in bounds if b.comparator in {'<', '<=', '='}]
-    low = max(lower, default=(-inf, False))
-    high, not_strict = min(upper, default=(inf, True))
-    return low, (high, not not_strict)
+def _exclude(low: _Bound, high: _Bound) -> bool:
+    slack = _TOLERANCE * max(1.0, abs(low.value))
+    is_strict = low.comparator == '>' or high.comparator == '<'
+    return low.value > high.value + slack or (low.value >= high.value and is_strict)
 
 
-def _bound(
-    item: Constraint | Condition, constraint: Constraint, form: Linear, periodic: bool
-) -> _Bound | None:
+def _pinned(low: _Bound, high: _Bound, excluded: _Bound) -> bool:
+    """Whether all between two bounds is too near to a value that is excluded."""
+    gap = max(excluded.value - low.value, high.value - excluded.value)
+    return gap <= excluded.apart
+
+
+def _is_same_angle(one: _Bound, other: _Bound) -> bool:
+    return abs(remainder(one.value - other.value, 2.0 * pi)) <= _TOLERANCE
+
+
+def _bound(item: Constraint | Condition, constraint: Constraint, modulo: bool) -> _Bound | None:
+    """The bound that a constraint is; None where nothing is known of its sides."""
+    periodic = modulo
+    if isinstance(item, Constraint) and item.comparator == '!=':
+        # Solved as abs(...) or angle_between(...): what is apart are its own sides.
+        periodic = isinstance(constraint.left, Call) and constraint.left.name == 'angle_between'
+        constraint = item
+    form = linear(constraint.left).plus(linear(constraint.right), -1.0)
+    if not form.terms:
+        return None
     first = min(form.terms)
     factor = form.terms[first]
     value = -form.number / factor
@@ -152,4 +245,4 @@ def _bound(
         return None
     quantity = tuple((name, form.terms[name] / factor) for name in sorted(form.terms))
     comparator = constraint.comparator if factor > 0.0 else _FLIPPED[constraint.comparator]
-    return _Bound(quantity, comparator, value, periodic, item)
+    return _Bound(quantity, comparator, value, periodic, APART / abs(factor), item)

@@ -29,6 +29,10 @@ class Cache(Generic[Key, Value]):
             self._forgotten(self._values.popitem(last=False)[1])
         return value
 
+    def known(self, key: Key) -> Value | None:
+        """The value of ``key``; None when it is not here."""
+        return self._values.get(key)
+
     def clear(self) -> None:
         """Forget everything."""
         self._values.clear()

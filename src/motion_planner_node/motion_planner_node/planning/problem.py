@@ -51,15 +51,19 @@ def read_problem(
     state: GeometricState,
     agent: str = '',
     remarks: Sequence[Diagnostic] | None = None,
+    compiled: Program | None = None,
 ) -> Problem:
     """Compile ``preconditions`` for ``state``; ``agent`` moves, or the first one stated.
 
-    ``remarks`` are those of ``language.check``, where they are known.
+    ``remarks`` are those of ``language.check``, where they are known; ``compiled`` is the program
+    of the same text and agent for another state, where there is one.
 
     :raises MotionPlannerError: UNKNOWN_AGENT, UNKNOWN_OBJECT, UNKNOWN_FUNCTION,
         UNKNOWN_PROPERTY, NO_START or INVALID_PRECONDITIONS
     """
-    program = compile_program(preconditions, world, state, agent, remarks)
+    program = compiled.starting_at(state) if compiled else None
+    if program is None:
+        program = compile_program(preconditions, world, state, agent, remarks)
     if not program.assigns and program.agent not in state:
         raise MotionPlannerError(
             Code.NO_START, f'{program.agent} has no attitude yet: nothing has assigned one'

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeVar, cast
@@ -60,9 +60,21 @@ def kernel(function: _Function) -> _Function:
 
     Where no cache can be kept the function is compiled anew in each process.
     """
+    return _compiled(function, _OPTIONS)
+
+
+def part(function: _Function) -> _Function:
+    """A ``kernel`` that is copied into those that call it: for what inner loops consist of.
+
+    So no references to arrays have to be counted on the way in and out.
+    """
+    return _compiled(function, {**_OPTIONS, '_nrt': False})
+
+
+def _compiled(function: _Function, options: Mapping[str, Any]) -> _Function:
     with _cached_in(_CACHE_DIRECTORY):
         try:
-            compiled = numba.njit(cache=_CACHE_DIRECTORY is not None, **_OPTIONS)(function)
+            compiled = numba.njit(cache=_CACHE_DIRECTORY is not None, **options)(function)
         except RuntimeError:
-            compiled = numba.njit(**_OPTIONS)(function)
+            compiled = numba.njit(**options)(function)
     return cast(_Function, compiled)

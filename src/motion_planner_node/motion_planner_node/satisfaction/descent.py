@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from motion_planner_node.functions import Array
 from motion_planner_node.satisfaction.descent_kernels import (
+    Ends,
     descend_primitive,
     start_all,
     tell_all,
@@ -62,6 +63,11 @@ class DescentOptions:
     halvings: int = 4
     length: float = 50.0
     retries: int = 8
+
+    @property
+    def limits(self) -> Limits:
+        """Those of each descent."""
+        return Limits(self.truncated_steps, self.damped_steps, self.halvings, self.length)
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,26 +134,32 @@ def _spiral(retries: int, length: float) -> Array:
 def _descend_once(
     program: Program, begin: Array, options: DescentOptions, room: Room, steps: Array
 ) -> Descent:
-    limits = Limits(options.truncated_steps, options.damped_steps, options.halvings, options.length)
     margin = 2.0 * program.tolerance
     if program.table is None:
-        ends, iterations = _descend_opaque(program, margin, room, limits, begin)
-        violations = program.violations(ends)
+        ends = _descend_opaque(program, margin, room, options.limits, begin)
     else:
-        ends, violations, iterations = descend_primitive(
-            program.table, program.conditions, margin, room, limits, begin, steps
+        shapes, clearance = room
+        ends = descend_primitive(
+            program.table,
+            program.conditions,
+            margin,
+            shapes,
+            clearance,
+            options.limits,
+            begin,
+            steps,
         )
-    satisfied = program.meets(violations)
+    satisfied = ends.satisfied
     if room.clearance > -np.inf:
-        satisfied &= clearances(room.shapes, ends) >= room.clearance
-    return Descent(ends, satisfied, violations, iterations)
+        satisfied &= clearances(room.shapes, ends.states) >= room.clearance
+    return Descent(ends.states, satisfied, ends.violations, ends.iterations)
 
 
 def _descend_opaque(
     program: Program, margin: float, room: Room, limits: Limits, states: Array
-) -> tuple[Array, NDArray[np.int64]]:
+) -> Ends:
     """Descents whose functions are evaluated by numpy, all that are going on at a time."""
-    conditions = with_room(program.conditions, room, margin)
+    conditions = with_room(program.conditions, room.clearance, margin)
     heads = np.empty((len(states), HEAD))
     memories = np.empty((len(states), len(conditions), MEMORY))
     start_all(heads, states, limits)
@@ -161,4 +173,5 @@ def _descend_opaque(
                 tell_all(heads, memories, lanes, limits, room, conditions, margin, told)
     ends = heads[:, BEST : BEST + 3].copy()
     ends[:, 2] = wrap(ends[:, 2])
-    return ends, heads[:, TAKEN].astype(np.int64)
+    violations = program.violations(ends)
+    return Ends(ends, program.meets(violations), violations, heads[:, TAKEN].astype(np.int64))

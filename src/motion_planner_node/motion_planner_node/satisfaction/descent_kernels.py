@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from motion_planner_node.functions import Array
-from motion_planner_node.robots.kernel import kernel
+from motion_planner_node.robots.arcs import wrap_angle
+from motion_planner_node.robots.kernel import kernel, part
 from motion_planner_node.satisfaction.evaluation import (
+    STRICT,
+    difference,
     evaluate,
     penalise,
+    tell,
     violation,
     workspace,
-    wrapped,
 )
 from motion_planner_node.satisfaction.machine import (
     BEST,
@@ -31,21 +35,59 @@ from motion_planner_node.satisfaction.machine import (
 )
 from motion_planner_node.satisfaction.recording import Table
 from motion_planner_node.satisfaction.room import Room
+from motion_planner_node.world.shapes import OpenShapes, Shapes, opened
 from motion_planner_node.world.slopes import clearance_with_slope
 
 
+class Ends(NamedTuple):
+    """Where n descents end.
+
+    states: (n, 3) x, y [m] and heading [rad] in (-pi, pi]
+    satisfied: (n,) whether they will do
+    violations: (n, m) by how much each constraint is missed
+    iterations: (n,) steps taken
+    """
+
+    states: Array
+    satisfied: NDArray[np.bool_]
+    violations: Array
+    iterations: NDArray[np.int64]
+
+
+class _Bench(NamedTuple):
+    """What one descent works with.
+
+    head, memory: a machine; told: what it is told; values, gradients: a `workspace`; missed: by how
+    much each constraint is missed at the end
+    """
+
+    head: Array
+    memory: Array
+    told: Array
+    values: Array
+    gradients: Array
+    missed: Array
+
+
+class _OpenRoom(NamedTuple):
+    """A `Room` in inner loops."""
+
+    shapes: OpenShapes
+    clearance: float
+
+
 @kernel
-def with_room(conditions: Array, room: Room, margin: float) -> Array:
-    """The ``conditions`` (m, 4) of a program, and one more for the room, if it has limits."""
+def with_room(conditions: Array, clearance: float, margin: float) -> Array:
+    """The ``conditions`` (m, 4) of a program, and one for a room's ``clearance`` [m], if finite."""
     count = len(conditions)
-    result = np.zeros((count + (1 if room.clearance > -inf else 0), 4))
+    result = np.zeros((count + (1 if clearance > -inf else 0), 4))
     result[:count] = conditions
     result[count:, 3] = 0.75 * margin
     return result
 
 
-@kernel
-def _tell_room(room: Room, head: Array, margin: float, told: Array) -> None:
+@part
+def _tell_room(room: _OpenRoom, head: Array, margin: float, told: Array) -> None:
     """Fill the last row of ``told``: how much clearance the trial lacks, and its slopes."""
     clearance, by_x, by_y = clearance_with_slope(room.shapes, head[TRIAL], head[TRIAL + 1])
     last = len(told) - 1
@@ -53,18 +95,71 @@ def _tell_room(room: Room, head: Array, margin: float, told: Array) -> None:
     told[last, 1], told[last, 2], told[last, 3] = -by_x, -by_y, 0.0
 
 
-@kernel
+@part
 def _is_satisfied(
-    conditions: Array, margin: float, room: Room, head: Array, violations: Array
+    conditions: Array, margin: float, room: _OpenRoom, head: Array, violations: Array
 ) -> bool:
     """Whether the best place of a descent will do; ``violations`` (m,) are those there."""
+    result = True
     for row in range(len(conditions)):
-        if not violations[row] <= (0.0 if conditions[row, 2] else 0.5 * margin):
-            return False
-    if room.clearance > -inf:
+        result = result and violations[row] <= (0.0 if conditions[row, STRICT] else 0.5 * margin)
+    if result and room.clearance > -inf:
         clearance, _, _ = clearance_with_slope(room.shapes, head[BEST], head[BEST + 1])
-        return bool(clearance >= room.clearance)
-    return True
+        result = clearance >= room.clearance
+    return result
+
+
+@part
+def _descend(
+    table: Table, room: _OpenRoom, limits: Limits, asked: Array, margin: float, bench: _Bench
+) -> None:
+    """Run a machine from its start to its end; the values are then those at its best place."""
+    conditions, head, told = asked[: len(table.outputs)], bench.head, bench.told
+    while head[PHASE] != DONE:
+        is_truncated = head[PHASE] == TRUNCATED
+        evaluate(table, head, TRIAL, is_truncated, bench.values, bench.gradients)
+        tell(table, bench.values, bench.gradients, told)
+        penalise(conditions, margin, told)
+        if len(asked) > len(conditions):
+            _tell_room(room, head, margin, told)
+        advance(head, bench.memory, limits, told, asked)
+    head[BEST + 2] = wrap_angle(head[BEST + 2])
+    is_elsewhere = head[BEST] != head[TRIAL] or head[BEST + 1] != head[TRIAL + 1]
+    if is_elsewhere or head[BEST + 2] != head[TRIAL + 2]:
+        evaluate(table, head, BEST, head[PHASE] == TRUNCATED, bench.values, bench.gradients)
+
+
+@part
+def _descend_all(
+    table: Table,
+    room: _OpenRoom,
+    limits: Limits,
+    asked: Array,
+    margin: float,
+    bench: _Bench,
+    states: Array,
+    steps: Array,
+    ends: Ends,
+) -> None:
+    constraints = len(table.outputs)
+    conditions, head, missed = asked[:constraints], bench.head, bench.missed
+    for lane in range(len(states)):
+        attempt, is_satisfied = 0, False
+        while attempt < len(steps) and not is_satisfied:
+            x, y = states[lane, 0] + steps[attempt, 0], states[lane, 1] + steps[attempt, 1]
+            start(head, x, y, states[lane, 2] + steps[attempt, 2], limits)
+            _descend(table, room, limits, asked, margin, bench)
+            for row in range(constraints):
+                missed[row] = violation(conditions, row, difference(table, row, bench.values))
+            ends.iterations[lane] += int(head[TAKEN])
+            is_satisfied = _is_satisfied(conditions, margin, room, head, missed)
+            if attempt == 0 or is_satisfied:
+                for row in range(constraints):
+                    ends.violations[lane, row] = missed[row]
+                for axis in range(3):
+                    ends.states[lane, axis] = head[BEST + axis]
+            attempt += 1
+        ends.satisfied[lane] = is_satisfied
 
 
 @kernel
@@ -72,57 +167,39 @@ def descend_primitive(
     table: Table,
     conditions: Array,
     margin: float,
-    room: Room,
+    shapes: Shapes,
+    clearance: float,
     limits: Limits,
     states: Array,
     steps: Array,
-) -> tuple[Array, Array, NDArray[np.int64]]:
+) -> Ends:
     """Descend from each of ``states`` (n, 3), from each of ``steps`` (k, 3) away until one succeeds.
 
-    Returns the ends (n, 3), by how much each constraint is missed there (n, m), and the steps taken
-    (n,). Where no descent succeeds it is the end of the first.
+    ``shapes`` and ``clearance`` [m] are those of a `Room`, which is slow to pass from Python.
+    Where no descent succeeds the end is that of the first.
     """
     count, constraints = len(states), len(conditions)
-    ends, violations = np.empty((count, 3)), np.empty((count, constraints))
-    iterations = np.zeros(count, np.int64)
+    ends = Ends(
+        np.empty((count, 3)),
+        np.empty(count, np.bool_),
+        np.empty((count, constraints)),
+        np.zeros(count, np.int64),
+    )
     values, gradients = workspace(table)
-    asked = with_room(conditions, room, margin)
+    room = _OpenRoom(opened(shapes), clearance)
+    asked = with_room(conditions, clearance, margin)
     rows = len(asked)
     head, memory, told = np.empty(HEAD), np.empty((rows, MEMORY)), np.zeros((rows, 4))
-    missed = np.empty(constraints)
-    for lane in range(count):
-        for attempt in range(len(steps)):
-            start(head, states[lane] + steps[attempt], limits)
-            while head[PHASE] != DONE:
-                evaluate(table, head, TRIAL, head[PHASE] == TRUNCATED, values, gradients)
-                for row in range(constraints):
-                    slot = table.outputs[row]
-                    told[row, 0] = values[slot]
-                    for axis in range(3):
-                        told[row, 1 + axis] = gradients[slot, axis]
-                penalise(conditions, margin, told)
-                if rows > constraints:
-                    _tell_room(room, head, margin, told)
-                advance(head, memory, limits, told, asked)
-            head[BEST + 2] = wrapped(head[BEST + 2])
-            evaluate(table, head, BEST, head[PHASE] == TRUNCATED, values, gradients)
-            for row in range(constraints):
-                missed[row] = violation(conditions, row, values[table.outputs[row]])
-            iterations[lane] += int(head[TAKEN])
-            is_satisfied = _is_satisfied(conditions, margin, room, head, missed)
-            if attempt == 0 or is_satisfied:
-                violations[lane] = missed
-                ends[lane] = head[BEST : BEST + 3]
-            if is_satisfied:
-                break
-    return ends, violations, iterations
+    bench = _Bench(head, memory, told, values, gradients, np.empty(constraints))
+    _descend_all(table, room, limits, asked, margin, bench, states, steps, ends)
+    return ends
 
 
 @kernel
 def start_all(heads: Array, states: Array, limits: Limits) -> None:
     """Begin a descent at each of ``states`` (n, 3); ``heads`` is (n, HEAD)."""
     for lane in range(len(states)):
-        start(heads[lane], states[lane], limits)
+        start(heads[lane], states[lane, 0], states[lane, 1], states[lane, 2], limits)
 
 
 @kernel
@@ -141,10 +218,11 @@ def tell_all(
     ``conditions`` are those of ``with_room``.
     """
     limited = room.clearance > -inf
+    inner = _OpenRoom(opened(room.shapes), room.clearance)
     constraints = len(conditions) - (1 if limited else 0)
     for index in range(len(lanes)):
         head, memory = heads[lanes[index]], memories[lanes[index]]
         penalise(conditions[:constraints], margin, told[index])
         if limited:
-            _tell_room(room, head, margin, told[index])
+            _tell_room(inner, head, margin, told[index])
         advance(head, memory, limits, told[index], conditions)

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from math import atan2, cos, floor, hypot, isnan, nan, pi, sin
+from math import atan2, cos, floor, hypot, isnan, nan, pi, sin, sqrt
 
 import numpy as np
 
 from motion_planner_node.functions import Array
-from motion_planner_node.robots.kernel import kernel
+from motion_planner_node.robots.kernel import kernel, part
 from motion_planner_node.satisfaction.recording import (
     ABSOLUTE,
     ADD,
     ARCTAN2,
+    BEARING,
     COSINE,
     DIVIDE,
     HYPOT,
     MINIMUM,
     MULTIPLY,
     NEGATE,
+    RANGE,
+    RELATIVE_TURNED,
     RESTRICT,
     SINE,
     SUBTRACT,
@@ -28,6 +31,9 @@ from motion_planner_node.satisfaction.recording import (
 HUGE = 1e150
 #: Steepest slope that is told apart, so that products with values stay finite.
 STEEPEST = 1e100
+
+#: Squares of lengths between these are neither lost nor infinite.
+_LEAST_SQUARE, _LARGEST_SQUARE = 1e-280, 1e280
 
 #: Columns of the conditions (m, 4) of a program: whether a constraint is an equality, periodic,
 #: strict, and the residual with which a descent can stop.
@@ -45,7 +51,7 @@ def workspace(table: Table) -> tuple[Array, Array]:
     return values, gradients
 
 
-@kernel
+@part
 def _combine(gradients: Array, target: int, u: float, first: int, v: float, second: int) -> None:
     """Gradient of ``target`` = u times that of ``first`` + v times that of ``second``.
 
@@ -56,7 +62,13 @@ def _combine(gradients: Array, target: int, u: float, first: int, v: float, seco
         gradients[target, axis] = (u * a if a != 0.0 else 0.0) + (v * b if b != 0.0 else 0.0)
 
 
-@kernel
+@part
+def _length(east: float, north: float) -> float:
+    square = east * east + north * north
+    return sqrt(square) if _LEAST_SQUARE < square < _LARGEST_SQUARE else hypot(east, north)
+
+
+@part
 def evaluate(
     table: Table, state: Array, first: int, is_truncated: bool, values: Array, gradients: Array
 ) -> None:
@@ -67,12 +79,31 @@ def evaluate(
     for axis in range(3):
         values[axis] = state[first + axis]
     operations = table.operations
+    x, y, heading = values[0], values[1], values[2]
     target = 3 + len(table.constants)
     for step in range(len(operations)):
         code, i, j = operations[step, 0], operations[step, 1], operations[step, 2]
         a = values[i]
         b = values[j] if code != RESTRICT else 0.0
-        if code == ADD:
+        if code >= RANGE:
+            east, north = a - x, b - y
+            length = _length(east, north)
+            if code == RANGE:
+                values[target] = length
+                gradients[target, 0] = -east / length if length != 0.0 else -1.0
+                gradients[target, 1] = -north / length if length != 0.0 else 0.0
+            else:
+                reciprocal = 1.0 / length if length != 0.0 else 0.0
+                bearing = atan2(north + 0.0, east) if length != 0.0 else nan
+                sign = 1.0
+                if code != BEARING:
+                    bearing = heading - bearing
+                    sign = 0.0 if is_truncated and code == RELATIVE_TURNED else -1.0
+                values[target] = bearing
+                gradients[target, 0] = sign * north * reciprocal * reciprocal
+                gradients[target, 1] = -sign * east * reciprocal * reciprocal
+                gradients[target, 2] = 0.0 if code == BEARING else 1.0
+        elif code == ADD:
             values[target] = a + b
             _combine(gradients, target, 1.0, i, 1.0, j)
         elif code == SUBTRACT:
@@ -124,14 +155,23 @@ def evaluate(
         target += 1
 
 
-@kernel
-def wrapped(angle: float) -> float:
-    """The same angle [rad] in (-pi, pi]."""
-    result = angle - 2.0 * pi * floor(angle / (2.0 * pi) + 0.5)
-    return pi if result <= -pi else min(result, pi)
+@part
+def difference(table: Table, row: int, values: Array) -> float:
+    """The difference of the sides of constraint number ``row``, from the values of a `workspace`."""
+    return float(table.linear[row, 0] * values[table.outputs[row]] + table.linear[row, 1])
 
 
-@kernel
+@part
+def tell(table: Table, values: Array, gradients: Array, told: Array) -> None:
+    """Fill ``told`` (m or more, 4) with the differences of a `workspace`, and with their slopes."""
+    for row in range(len(table.outputs)):
+        slot, factor = table.outputs[row], table.linear[row, 0]
+        told[row, 0] = difference(table, row, values)
+        for axis in range(3):
+            told[row, 1 + axis] = factor * gradients[slot, axis]
+
+
+@part
 def penalise(conditions: Array, margin: float, told: Array) -> None:
     """Turn differences of sides into the functions where they are penalised, 0 elsewhere.
 
@@ -142,7 +182,7 @@ def penalise(conditions: Array, margin: float, told: Array) -> None:
     for row in range(len(conditions)):
         value = told[row, 0]
         if conditions[row, PERIODIC]:
-            value -= 2.0 * pi * floor(value / (2.0 * pi) + 0.5)
+            value -= 2.0 * pi * floor(value * (0.5 / pi) + 0.5)
         if not conditions[row, EQUALITY]:
             value = value + margin if value + margin > 0.0 or isnan(value) else 0.0
         if isnan(value):
@@ -153,7 +193,7 @@ def penalise(conditions: Array, margin: float, told: Array) -> None:
             told[row, axis] = 0.0 if isnan(slope) else min(max(slope, -STEEPEST), STEEPEST)
 
 
-@kernel
+@part
 def violation(conditions: Array, row: int, difference: float) -> float:
     """By how much a constraint is missed whose sides have this ``difference``; 0 if it holds."""
     if isnan(difference):
@@ -165,3 +205,16 @@ def violation(conditions: Array, row: int, difference: float) -> float:
     if difference < 0.0:
         return 0.0
     return max(difference, 5e-324) if conditions[row, STRICT] else difference
+
+
+@kernel
+def violations_at(table: Table, conditions: Array, states: Array) -> Array:
+    """By how much ``states`` (n, 3) miss each of the m constraints: (n, m), 0 where it holds."""
+    is_truncated = False
+    values, gradients = workspace(table)
+    result = np.empty((len(states), len(conditions)))
+    for lane in range(len(states)):
+        evaluate(table, states[lane], 0, is_truncated, values, gradients)
+        for row in range(len(conditions)):
+            result[lane, row] = violation(conditions, row, difference(table, row, values))
+    return result

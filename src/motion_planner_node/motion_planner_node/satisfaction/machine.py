@@ -11,7 +11,7 @@ from math import sqrt
 from typing import NamedTuple
 
 from motion_planner_node.functions import Array
-from motion_planner_node.robots.kernel import kernel
+from motion_planner_node.robots.kernel import part
 from motion_planner_node.satisfaction.evaluation import ALLOWED
 
 #: Phases of a descent: the paper's steps, damped Gauss-Newton steps, over.
@@ -24,6 +24,13 @@ _MOST_DAMPING = 1e8
 #: A step of the paper that leaves more than this share of the criterion hands over to damped steps,
 #: two damped steps in turn that each leave more than that share have come to a standstill.
 _SLOW, _STALL = 0.25, 0.999
+
+#: Damping at first, and its factors after a step that helps and one that does not.
+_FIRST_DAMPING, _RELIEF, _STRAIN = 0.01, 0.5, 8.0
+
+#: A step that is damped no more than this, and promises to reduce the criterion by less than that
+#: share, has come to a minimum.
+_HARDLY_DAMPED, _HOPELESS = 1e-5, 1e-3
 
 
 class Limits(NamedTuple):
@@ -46,18 +53,19 @@ BEST, TRIAL, _DIRECTION, _STALLED, HEAD = 7, 10, 13, 16, 17
 _RESIDUAL, _SLOPE, _WEIGHT, MEMORY = 0, 1, 4, 5
 
 
-@kernel
-def start(head: Array, state: Array, limits: Limits) -> None:
-    """Begin a descent at ``state`` (3,)."""
+@part
+def start(head: Array, x: float, y: float, heading: float, limits: Limits) -> None:
+    """Begin a descent at the attitude (x, y [m], heading [rad])."""
     head[:] = 0.0
     head[_FIRST] = 1.0
     if limits.truncated_steps == 0:
         head[PHASE] = DAMPED
-    for axis in range(3):
-        head[BEST + axis] = head[TRIAL + axis] = state[axis]
+    head[BEST] = head[TRIAL] = x
+    head[BEST + 1] = head[TRIAL + 1] = y
+    head[BEST + 2] = head[TRIAL + 2] = heading
 
 
-@kernel
+@part
 def advance(head: Array, memory: Array, limits: Limits, told: Array, conditions: Array) -> None:
     """Take note of what is ``told`` of the trial, and set the next one.
 
@@ -65,134 +73,153 @@ def advance(head: Array, memory: Array, limits: Limits, told: Array, conditions:
     column, the residuals with which the descent is over.
     """
     if head[PHASE] == TRUNCATED:
-        _advance_truncated(head, memory, limits, told, conditions)
+        _advance_truncated(head, limits, told, conditions)
     else:
         _advance_damped(head, memory, limits, told, conditions)
 
 
-@kernel
-def _is_met(memory: Array, conditions: Array) -> bool:
-    for row in range(len(memory)):
-        if not abs(memory[row, _RESIDUAL]) <= conditions[row, ALLOWED]:
-            return False
-    return True
+@part
+def _is_met(told: Array, conditions: Array) -> bool:
+    result = True
+    for row in range(len(told)):
+        result = result and abs(told[row, _RESIDUAL]) <= conditions[row, ALLOWED]
+    return result
 
 
-@kernel
-def _accept(head: Array, memory: Array, criterion: float, told: Array) -> None:
+@part
+def _accept(head: Array, criterion: float) -> None:
     for axis in range(3):
         head[BEST + axis] = head[TRIAL + axis]
     head[_CRITERION] = criterion
-    for row in range(len(memory)):
-        for column in range(4):
-            memory[row, column] = told[row, column]
     if head[_FIRST] == 0.0:
         head[TAKEN] += 1.0
     head[_FIRST] = 0.0
 
 
-@kernel
-def _advance_truncated(
-    head: Array, memory: Array, limits: Limits, told: Array, conditions: Array
-) -> None:
+@part
+def _advance_truncated(head: Array, limits: Limits, told: Array, conditions: Array) -> None:
     """Equation 5 with the derived codes of Table 2, while it helps much."""
     criterion = 0.0
-    for row in range(len(memory)):
+    for row in range(len(told)):
         criterion += 0.5 * told[row, _RESIDUAL] * told[row, _RESIDUAL]
     if head[_FIRST] or criterion < head[_CRITERION]:
         is_slow = head[_FIRST] == 0.0 and criterion > _SLOW * head[_CRITERION]
-        _accept(head, memory, criterion, told)
-        if _is_met(memory, conditions):
-            head[PHASE] = DONE
-            return
-        steepness = 0.0
-        for axis in range(3):
-            slope = 0.0
-            for row in range(len(memory)):
-                slope += memory[row, _RESIDUAL] * memory[row, _SLOPE + axis]
-            head[_DIRECTION + axis] = -slope
-            steepness += abs(slope)
-        head[_STEP] = 1.0
-        head[_HALVED] = 0.0
+        _accept(head, criterion)
         head[_TRIED] += 1.0
-        is_over = is_slow or head[_TRIED] > limits.truncated_steps or steepness == 0.0
+        head[_STEP], head[_HALVED] = 1.0, 0.0
+        is_promising = _gradient_step(head, told) < _SLOW * criterion
+        is_over = is_slow or head[_TRIED] > limits.truncated_steps or not is_promising
+        if _is_met(told, conditions):
+            head[PHASE] = DONE
     else:
         head[_STEP] *= 0.5
         head[_HALVED] += 1.0
         is_over = head[_HALVED] >= limits.halvings
-    if is_over:
-        head[PHASE], head[_FIRST], head[_TRIED] = DAMPED, 1.0, 0.0
     for axis in range(3):
         step = 0.0 if is_over else head[_STEP] * head[_DIRECTION + axis]
         head[TRIAL + axis] = head[BEST + axis] + step
+    if is_over and head[PHASE] != DONE:
+        head[PHASE], head[_FIRST], head[_TRIED] = DAMPED, 1.0, 0.0
 
 
-@kernel
+@part
+def _gradient_step(head: Array, told: Array) -> float:
+    """Set the direction to the negative gradient; returns the criterion that it should lead to."""
+    u, v, w = 0.0, 0.0, 0.0
+    for row in range(len(told)):
+        residual = told[row, _RESIDUAL]
+        u -= residual * told[row, _SLOPE]
+        v -= residual * told[row, _SLOPE + 1]
+        w -= residual * told[row, _SLOPE + 2]
+    head[_DIRECTION], head[_DIRECTION + 1], head[_DIRECTION + 2] = u, v, w
+    criterion = 0.0
+    for row in range(len(told)):
+        residual = told[row, _RESIDUAL]
+        if residual != 0.0:
+            along = told[row, _SLOPE] * u + told[row, _SLOPE + 1] * v
+            residual += along + told[row, _SLOPE + 2] * w
+            criterion += 0.5 * residual * residual
+    return criterion
+
+
+@part
 def _advance_damped(
     head: Array, memory: Array, limits: Limits, told: Array, conditions: Array
 ) -> None:
-    """Levenberg-Marquardt in scaled variables, until damping no longer helps.
-
-    Each residual is weighed by the slope that it has at first, so that metres and radians count
-    alike in the damping and in the sum that has to decrease.
-    """
-    is_first = head[_FIRST] == 1.0
-    if is_first:
-        for row in range(len(memory)):
-            across = (told[row, _SLOPE] ** 2 + told[row, _SLOPE + 1] ** 2) * limits.length**2
-            slope = sqrt(across + told[row, _SLOPE + 2] ** 2)
-            memory[row, _WEIGHT] = 1.0 / slope if slope > 1e-30 else 1.0
-        head[_STEP] = 1e-3
+    """Levenberg-Marquardt in scaled variables, until damping no longer helps."""
+    if head[_FIRST]:
+        _weigh(memory, told, limits.length)
+        head[_STEP] = _FIRST_DAMPING
     criterion = 0.0
     for row in range(len(memory)):
-        criterion += (told[row, _RESIDUAL] * memory[row, _WEIGHT]) ** 2
-    if is_first or criterion < head[_CRITERION]:
-        if not is_first:
-            head[_STEP] = max(0.1 * head[_STEP], 1e-12)
+        residual = told[row, _RESIDUAL] * memory[row, _WEIGHT]
+        criterion += residual * residual
+    if head[_FIRST] or criterion < head[_CRITERION]:
+        if not head[_FIRST]:
+            head[_STEP] = max(_RELIEF * head[_STEP], 1e-12)
             head[_STALLED] = head[_STALLED] + 1.0 if criterion > _STALL * head[_CRITERION] else 0.0
-        _accept(head, memory, criterion, told)
-        if _is_met(memory, conditions):
-            head[PHASE] = DONE
-            return
+        _accept(head, criterion)
+        for row in range(len(memory)):
+            weight = memory[row, _WEIGHT]
+            memory[row, _RESIDUAL] = told[row, _RESIDUAL] * weight
+            memory[row, _SLOPE] = told[row, _SLOPE] * (weight * limits.length)
+            memory[row, _SLOPE + 1] = told[row, _SLOPE + 1] * (weight * limits.length)
+            memory[row, _SLOPE + 2] = told[row, _SLOPE + 2] * weight
+        is_over = _is_met(told, conditions) or head[_STALLED] > 1.0
     else:
-        head[_STEP] *= 8.0
-    is_stuck = head[_STALLED] > 1.0 or not head[_STEP] < _MOST_DAMPING
-    if is_stuck or head[_TRIED] >= limits.damped_steps:
-        head[PHASE] = DONE
-        return
+        head[_STEP] *= _STRAIN
+        is_over = not head[_STEP] < _MOST_DAMPING
     head[_TRIED] += 1.0
-    _damped_step(head, memory, limits.length)
+    if is_over or head[_TRIED] > limits.damped_steps:
+        head[PHASE] = DONE
+    else:
+        _damped_step(head, memory, limits.length)
 
 
-@kernel
+@part
+def _weigh(memory: Array, told: Array, length: float) -> None:
+    """Weigh each residual by the slope that it has now.
+
+    So metres and radians count alike in the damping and in the sum that has to decrease.
+    """
+    for row in range(len(memory)):
+        across = (told[row, _SLOPE] ** 2 + told[row, _SLOPE + 1] ** 2) * length**2
+        slope = sqrt(across + told[row, _SLOPE + 2] ** 2)
+        memory[row, _WEIGHT] = 1.0 / slope if slope > 1e-30 else 1.0
+
+
+@part
 def _damped_step(head: Array, memory: Array, length: float) -> None:
-    """Set the trial to best + d with (J^T J + mu I) d = -J^T f, J in scaled variables.
+    """Set the trial to best + d with (J^T J + mu |f| I) d = -J^T f, J in scaled variables.
 
-    The matrix is symmetric and positive definite, so it is solved by its L D L^T factors.
+    Damping in proportion to |f| keeps convergence quadratic (Fan and Yuan 2005). The matrix is
+    symmetric and positive definite, so it is solved by its L D L^T factors. The descent is over
+    where a step that is hardly damped promises hardly any progress: that is a minimum.
     """
     a, b, c, d, e, f = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     u, v, w = 0.0, 0.0, 0.0
     for row in range(len(memory)):
-        weight = memory[row, _WEIGHT]
-        residual = memory[row, _RESIDUAL] * weight
+        residual = memory[row, _RESIDUAL]
         if residual != 0.0:
-            x = memory[row, _SLOPE] * weight * length
-            y = memory[row, _SLOPE + 1] * weight * length
-            z = memory[row, _SLOPE + 2] * weight
+            x, y, z = memory[row, _SLOPE], memory[row, _SLOPE + 1], memory[row, _SLOPE + 2]
             a, b, c = a + x * x, b + x * y, c + x * z
             d, e, f = d + y * y, e + y * z, f + z * z
             u, v, w = u - x * residual, v - y * residual, w - z * residual
-    damping = head[_STEP] + _LEAST_PIVOT * (1e-30 + a + d + f)
+    damping = head[_STEP] * sqrt(head[_CRITERION]) + _LEAST_PIVOT * (1e-30 + a + d + f)
     a, d, f = a + damping, d + damping, f + damping
-    p, q = b / a, c / a
-    second = d - p * b
-    s = (e - p * c) / second
-    third = f - q * c - s * (e - p * c)
-    v -= p * u
-    w -= q * u + s * v
-    z = w / third
-    y = v / second - s * z
-    x = u / a - p * y - q * z
-    head[TRIAL] = head[BEST] + length * x
-    head[TRIAL + 1] = head[BEST + 1] + length * y
-    head[TRIAL + 2] = head[BEST + 2] + z
+    first = 1.0 / a
+    p, q = b * first, c * first
+    t = e - p * c
+    second = 1.0 / (d - p * b)
+    s = t * second
+    north = v - p * u
+    turn = (w - q * u - s * north) / (f - q * c - s * t)
+    north = north * second - s * turn
+    east = u * first - p * north - q * turn
+    head[TRIAL] = head[BEST] + length * east
+    head[TRIAL + 1] = head[BEST + 1] + length * north
+    head[TRIAL + 2] = head[BEST + 2] + turn
+    promised = u * east + v * north + w * turn
+    promised += damping * (east * east + north * north + turn * turn)
+    if damping <= _HARDLY_DAMPED and promised <= _HOPELESS * head[_CRITERION]:
+        head[PHASE] = DONE

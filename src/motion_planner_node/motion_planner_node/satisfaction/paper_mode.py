@@ -14,8 +14,8 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from motion_planner_node.functions import Array, Dual
+from motion_planner_node.robots.arcs import wrap_angle
 from motion_planner_node.satisfaction.program import Program
-from motion_planner_node.satisfaction.row import wrap_angle
 
 Path = TypeVar('Path')
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from copy import copy
 from functools import cached_property
-from math import isfinite, isnan, pi
+from math import isfinite, isnan
 from typing import Literal
 
 import numpy as np
@@ -26,11 +26,13 @@ from motion_planner_node.language.syntax import (
 )
 from motion_planner_node.language.tape import Tape
 from motion_planner_node.requests import Residual
+from motion_planner_node.robots.arcs import wrap_angle
 from motion_planner_node.robots.motion import Attitude, GeometricState
 from motion_planner_node.satisfaction.cells import Cells, possible_positions
 from motion_planner_node.satisfaction.conflicts import contradiction
+from motion_planner_node.satisfaction.evaluation import violations_at
 from motion_planner_node.satisfaction.recording import Table, record
-from motion_planner_node.satisfaction.row import Row, wrap_angle
+from motion_planner_node.satisfaction.row import Row
 from motion_planner_node.stopping import ShouldStop, go_on, never
 from motion_planner_node.world.model import Bounds, World
 
@@ -38,7 +40,7 @@ from motion_planner_node.world.model import Bounds, World
 #: coordinates of ordinary size. Strict comparators have none.
 TOLERANCE = 1e-9
 
-_NEVER_ZERO = float(np.nextafter(0.0, 1.0))
+_EPSILON = float(np.finfo(np.float64).eps)
 
 
 class Program:
@@ -72,15 +74,35 @@ class Program:
         self._preconditions = preconditions
         self._world = world
         self._fields = {label: world.objects[label].fields for label in self.objects}
-        self.start = self.apply_commands(start)
+        self.start, self.tolerance = self._begun(start)
         places = self._fields | _components(self.start, self.agents)
         self._tape = Tape(agent, places, surroundings_of(world))
         self.rows = tuple(self._row(item) for item in preconditions.constraints)
         self.constraints = tuple(row.text for row in self.rows)
+
+    def _begun(self, start: GeometricState) -> tuple[dict[str, Attitude], float]:
+        """The state after the commands, and the tolerance with which that can be computed."""
+        state = self.apply_commands(start)
+        places = self._fields | _components(state, self.agents)
         largest = max(
             (abs(value) for fields in places.values() for value in fields.values()), default=0.0
         )
-        self.tolerance = TOLERANCE + 16.0 * float(np.finfo(np.float64).eps) * largest
+        return dict(state), TOLERANCE + 16.0 * _EPSILON * largest
+
+    def starting_at(self, start: GeometricState) -> Program | None:
+        """The same program from another attitude of the agent that moves.
+
+        None where that is another program: there are commands, or other agents stand elsewhere.
+        """
+        others = (label for label in self.agents if label != self.agent)
+        is_same = all(start.get(label) == self.start[label] for label in others)
+        if self.assigns or self.agent not in start or not is_same:
+            return None
+        _ = self.table  # which both programs share
+        result = copy(self)
+        vars(result).pop('conditions', None)
+        result.start, result.tolerance = self._begun(start)
+        return result
 
     @contextmanager
     def broken_off_by(self, should_stop: ShouldStop) -> Iterator[None]:
@@ -215,17 +237,12 @@ class Program:
 
         An undefined angle is off by pi, any other undefined number by infinity.
         """
+        if self.table is not None:
+            return violations_at(self.table, self.conditions, np.ascontiguousarray(states))
         result = np.empty((len(states), len(self.rows)))
-        for index, (row, function) in enumerate(
-            zip(self.rows, self.functions(states), strict=True)
-        ):
-            value = function.value
-            if row.is_equality:
-                missed = np.abs(value)
-            else:
-                missed = np.maximum(value, _NEVER_ZERO if row.is_strict else 0.0)
-                missed = np.where(value < 0.0, 0.0, missed)
-            result[:, index] = np.where(np.isnan(value), pi if row.periodic else np.inf, missed)
+        functions = self.functions(states)
+        for index, (row, function) in enumerate(zip(self.rows, functions, strict=True)):
+            result[:, index] = row.missed(function.value)
         return result
 
     def satisfied(self, states: Array) -> NDArray[np.bool_]:
@@ -250,7 +267,7 @@ class Program:
         """A sentence for each constraint that ``attitude`` misses, with the value that it has."""
         state = np.array([[attitude.x, attitude.y, attitude.heading]])
         return tuple(
-            f'{row.text} not met: {_shown(left, row)}'
+            f'{row.text} not met: {row.shown(left)}'
             for row, (left, _), residual in zip(
                 self.rows, self.sides(state), self.residuals(attitude), strict=True
             )
@@ -321,13 +338,6 @@ def _components(state: GeometricState, labels: tuple[str, ...]) -> dict[str, dic
         for label in labels
         if label in state
     }
-
-
-def _shown(side: Dual, row: Row) -> str:
-    value = float(np.ravel(side.value)[0])
-    if isnan(value):
-        return 'undefined'
-    return f'{wrap_angle(value) if row.periodic else value:.6g}'
 
 
 def _not_assignable(command: Command, value: float | None) -> MotionPlannerError:

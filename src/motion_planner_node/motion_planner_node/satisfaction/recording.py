@@ -20,6 +20,12 @@ from motion_planner_node.satisfaction.row import Row
 NEGATE, ADD, SUBTRACT, MULTIPLY, DIVIDE, HYPOT, ARCTAN2, SINE, COSINE, ABSOLUTE, MINIMUM = range(11)
 #: Keeps only some derivatives: the second operand is a set of bits, one for each component.
 RESTRICT = 11
+#: Several operations in one, from the agent to a place whose constant x and y are the operands:
+#: distance, bearing, heading minus bearing, and that with the heading as its only derived code.
+RANGE, BEARING, RELATIVE, RELATIVE_TURNED = range(12, 16)
+
+_X, _Y, _HEADING = range(3)
+_ONLY_HEADING = 1 << _HEADING
 
 
 class Table(NamedTuple):
@@ -29,12 +35,14 @@ class Table(NamedTuple):
 
     constants: (c,) numbers
     operations: (k, 3) operation code and the slots of its operands
-    outputs: (m,) slots of the differences of the sides of the constraints
+    outputs: (m,) slots of which the differences of the sides of the constraints are made
+    linear: (m, 2) factor and number: the difference is factor * slot + number
     """
 
     constants: NDArray[np.float64]
     operations: NDArray[np.int64]
     outputs: NDArray[np.int64]
+    linear: NDArray[np.float64]
 
 
 class NotPrimitiveError(Exception):
@@ -54,13 +62,62 @@ class _Recorder:
         return _Recorded(self, -len(self.constants))
 
     def operate(self, code: int, first: int, second: int) -> _Recorded:
-        operation = (code, first, second)
+        operation = self._merged(code, first, second)
         known = self._known.get(operation)
         if known is None:
             slot = len(COMPONENTS) + len(self.operations)
             known = self._known[operation] = _Recorded(self, slot)
             self.operations.append(operation)
         return known
+
+    def operation(self, slot: int) -> tuple[int, int, int] | None:
+        """What computes ``slot``; None where it is a component or a constant."""
+        return self.operations[slot - len(COMPONENTS)] if slot >= len(COMPONENTS) else None
+
+    def _merged(self, code: int, first: int, second: int) -> tuple[int, int, int]:
+        """The same operation, in one with those before it where there is a code for all."""
+        if code == HYPOT:
+            east, north = self._minus(first, _X), self._minus(second, _Y)
+            if east and north:
+                return RANGE, east, north
+        elif code == ARCTAN2:
+            east, north = self._minus(second, _X), self._minus(first, _Y)
+            if east and north:
+                return BEARING, east, north
+        elif code == SUBTRACT and first == _HEADING:
+            bearing = self.operation(second)
+            if bearing and bearing[0] == BEARING:
+                return RELATIVE, *bearing[1:]
+        elif code == RESTRICT:
+            restricted = self.operation(first)
+            if restricted and restricted[0] == RELATIVE and second == _ONLY_HEADING:
+                return RELATIVE_TURNED, *restricted[1:]
+            if restricted and restricted[0] in {ADD, SUBTRACT} and restricted[2] < 0:
+                kept = self.operate(RESTRICT, restricted[1], second)
+                return restricted[0], kept.slot, restricted[2]
+        return code, first, second
+
+    def _minus(self, slot: int, component: int) -> int:
+        """The constant minus which the ``component`` is in ``slot``; 0 where there is none."""
+        code, first, second = self.operation(slot) or (NEGATE, 0, 0)
+        return first if code == SUBTRACT and first < 0 and second == component else 0
+
+    def linear(self, slot: int) -> tuple[int, float, float]:
+        """A slot, factor and number, so that ``slot`` is factor times that slot plus the number."""
+        factor, number = 1.0, 0.0
+        while operation := self.operation(slot):
+            code, first, second = operation
+            if code == NEGATE:
+                slot, factor = first, -factor
+            elif code in {ADD, SUBTRACT} and second < 0:
+                sign = factor if code == ADD else -factor
+                slot, number = first, number + sign * self.constants[-1 - second]
+            elif code == SUBTRACT and first < 0:
+                slot, number = second, number + factor * self.constants[-1 - first]
+                factor = -factor
+            else:
+                break
+        return slot, factor, number
 
 
 class _Recorded:
@@ -138,12 +195,15 @@ def record(tape: Tape, rows: Sequence[Row]) -> Table | None:
         values = tape.run(state, recorder.constant, truncated=True)
     except NotPrimitiveError:
         return None
-    outputs = []
+    outputs, linear = [], []
     for row in rows:
         left, right = values[row.left], values[row.right]
-        outputs.append((right - left if row.is_reversed else left - right).slot)
+        difference = right - left if row.is_reversed else left - right
+        slot, *terms = recorder.linear(difference.slot)
+        outputs.append(slot)
+        linear.append(terms)
     used = _used(recorder.operations, outputs)
-    return _numbered(recorder, used, outputs)
+    return _numbered(recorder, used, outputs, linear)
 
 
 def _used(operations: Sequence[tuple[int, int, int]], outputs: Sequence[int]) -> list[int]:
@@ -156,7 +216,12 @@ def _used(operations: Sequence[tuple[int, int, int]], outputs: Sequence[int]) ->
     return [index for index in range(len(operations)) if index + len(COMPONENTS) in needed]
 
 
-def _numbered(recorder: _Recorder, used: Sequence[int], outputs: Sequence[int]) -> Table:
+def _numbered(
+    recorder: _Recorder,
+    used: Sequence[int],
+    outputs: Sequence[int],
+    linear: Sequence[Sequence[float]],
+) -> Table:
     """The final slots: components, constants, then the results of the ``used`` operations."""
     base = len(COMPONENTS)
     final = {index: index for index in range(base)}
@@ -171,4 +236,5 @@ def _numbered(recorder: _Recorder, used: Sequence[int], outputs: Sequence[int]) 
         np.array(recorder.constants, dtype=np.float64),
         np.array(table, dtype=np.int64).reshape(-1, 3),
         np.array([final[slot] for slot in outputs], dtype=np.int64),
+        np.array(linear, dtype=np.float64).reshape(-1, 2),
     )

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi
+from math import isnan, pi
 
 import numpy as np
 
 from motion_planner_node.functions import Array, Dual, Interval
 from motion_planner_node.language.syntax import Constraint
+from motion_planner_node.robots.arcs import wrap_angle
+from motion_planner_node.robots.kernel import kernel
+
+_NEVER_ZERO = float(np.nextafter(0.0, 1.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +52,22 @@ class Row:
             return Dual(function.value - 2.0 * pi * turns, function.gradient)
         return function
 
+    def missed(self, values: Array) -> Array:
+        """By how much the function's ``values`` miss the constraint: 0 where it holds."""
+        if self.is_equality:
+            missed = np.abs(values)
+        else:
+            missed = np.maximum(values, _NEVER_ZERO if self.is_strict else 0.0)
+            missed = np.where(values < 0.0, 0.0, missed)
+        return np.asarray(np.where(np.isnan(values), pi if self.periodic else np.inf, missed))
+
+    def shown(self, side: Dual) -> str:
+        """The value of one side at the first state, for people."""
+        value = float(np.ravel(side.value)[0])
+        if isnan(value):
+            return 'undefined'
+        return f'{wrap_angle(value) if self.periodic else value:.6g}'
+
     def bounds(self, left: Interval, right: Interval) -> Interval:
         """Bounds of ``function``; those of angles may go on beyond pi, but lie round zero."""
         function = right - left if self.is_reversed else left - right
@@ -60,11 +80,13 @@ class Row:
 
 
 def wrap(angles: Array) -> Array:
-    """The same angles [rad] in (-pi, pi]."""
-    result = angles - 2.0 * pi * np.round(angles / (2.0 * pi))
-    return np.where(result <= -pi, pi, np.minimum(result, pi))
+    """The same angles [rad] in (-pi, pi], each as ``wrap_angle`` has it."""
+    result = np.array(angles, dtype=np.float64)
+    _wrap_each(result.reshape(-1))
+    return result
 
 
-def wrap_angle(angle: float) -> float:
-    """The same angle [rad] in (-pi, pi]."""
-    return float(wrap(np.array(angle)))
+@kernel
+def _wrap_each(angles: Array) -> None:
+    for index in range(len(angles)):
+        angles[index] = wrap_angle(angles[index])

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.world.index import COVER, COVERED, FIRST, LAST, OPEN, SKIP, bucket_at
-from motion_planner_node.world.shapes import Shapes
+from motion_planner_node.world.shapes import AnyShapes
 
 
 @kernel
@@ -40,7 +40,7 @@ def _distance_to_polygon(
 
 
 @kernel
-def _deepest(shapes: Shapes, x: float, y: float, nearest: float) -> tuple[float, int]:
+def _deepest(shapes: AnyShapes, x: float, y: float, nearest: float) -> tuple[float, int]:
     """The least signed distance [m] to all polygons and discs, if below ``nearest``; else that."""
     which = -1
     polygons = len(shapes.first_edge) - 1
@@ -65,7 +65,7 @@ def _deepest(shapes: Shapes, x: float, y: float, nearest: float) -> tuple[float,
 
 
 @kernel
-def _depth_in_outlines(shapes: Shapes, row: int, x: float, y: float) -> tuple[float, int]:
+def _depth_in_outlines(shapes: AnyShapes, row: int, x: float, y: float) -> tuple[float, int]:
     """The least signed distance [m] to a polygon that holds (x, y), in a row of buckets; else 0."""
     edges, first_edge, row_edges = shapes.edges, shapes.first_edge, shapes.row_edges
     last_at = shapes.row_starts[row + 1]
@@ -91,7 +91,7 @@ def _depth_in_outlines(shapes: Shapes, row: int, x: float, y: float) -> tuple[fl
 
 
 @kernel
-def inside_a_cell(shapes: Shapes, x: float, y: float) -> bool:
+def inside_a_cell(shapes: AnyShapes, x: float, y: float) -> bool:
     """Whether (x, y) is in an occupied cell of the occupancy map."""
     occupied, cells = shapes.occupied, shapes.cells
     rows, columns = occupied.shape
@@ -107,7 +107,7 @@ def inside_a_cell(shapes: Shapes, x: float, y: float) -> bool:
 
 @kernel
 def nearest_item(
-    shapes: Shapes, x: float, y: float, lowest: int, nearest: float
+    shapes: AnyShapes, x: float, y: float, lowest: int, nearest: float
 ) -> tuple[float, int]:
     """Distance [m] to and number of the nearest item from number ``lowest`` on.
 
@@ -151,7 +151,7 @@ def nearest_item(
 
 
 @kernel
-def _obstacle_of(shapes: Shapes, item: int) -> int:
+def _obstacle_of(shapes: AnyShapes, item: int) -> int:
     """The number of the obstacle that an item belongs to; the occupancy map has the last one."""
     if item < 0:
         return -1
@@ -165,7 +165,7 @@ def _obstacle_of(shapes: Shapes, item: int) -> int:
 
 
 @kernel
-def clearance_within(shapes: Shapes, x: float, y: float, reach: float) -> tuple[float, int]:
+def clearance_within(shapes: AnyShapes, x: float, y: float, reach: float) -> tuple[float, int]:
     """As `clearance_at`, but never more than ``reach`` [m]: beyond it nothing is looked for."""
     bounds = shapes.bounds
     nearest = min(x - bounds[0], bounds[2] - x, y - bounds[1], bounds[3] - y)
@@ -191,7 +191,7 @@ def clearance_within(shapes: Shapes, x: float, y: float, reach: float) -> tuple[
 
 
 @kernel
-def clearance_at(shapes: Shapes, x: float, y: float) -> tuple[float, int]:
+def clearance_at(shapes: AnyShapes, x: float, y: float) -> tuple[float, int]:
     """Distance [m] from (x, y) to the nearest obstacle or map edge, and which obstacle that is.
 
     Negative inside an obstacle or outside the bounds; -1 stands for the edge of the map, and the
@@ -201,7 +201,7 @@ def clearance_at(shapes: Shapes, x: float, y: float) -> tuple[float, int]:
 
 
 @kernel
-def clearances(shapes: Shapes, points: NDArray[np.float64]) -> NDArray[np.float64]:
+def clearances(shapes: AnyShapes, points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Clearances [m], shape (n,), at ``points`` of shape (n, 2) or wider."""
     result = np.empty(len(points))
     for i in range(len(points)):

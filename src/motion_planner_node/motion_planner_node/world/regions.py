@@ -87,8 +87,8 @@ def _arrival(times: NDArray[np.float64], k: int, width: int, cell: float) -> flo
     """Distance at cell k whose neighbours have ``times``: upwind solution of |grad| = 1."""
     a, b = min(times[k - 1], times[k + 1]), min(times[k - width], times[k + width])
     if abs(a - b) >= cell:
-        return min(a, b) + cell
-    return 0.5 * (a + b + sqrt(2.0 * cell * cell - (a - b) * (a - b)))
+        return float(min(a, b) + cell)
+    return float(0.5 * (a + b + sqrt(2.0 * cell * cell - (a - b) * (a - b))))
 
 
 @kernel

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import lru_cache
 from math import cos, inf, sin
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import types
@@ -101,6 +101,42 @@ def _reference(
     return shapes
 
 
+class OpenShapes(NamedTuple):
+    """The arrays of `Shapes` themselves: for inner loops that are to count no references."""
+
+    bounds: NDArray[np.float64]
+    edges: NDArray[np.float64]
+    first_edge: NDArray[np.int64]
+    discs: NDArray[np.float64]
+    boxes: NDArray[np.float64]
+    frame: NDArray[np.float64]
+    buckets: NDArray[np.int32]
+    items: NDArray[np.int32]
+    row_starts: NDArray[np.int64]
+    row_edges: NDArray[np.int32]
+    occupied: NDArray[np.uint8]
+    cells: NDArray[np.float64]
+
+
+@kernel
+def opened(shapes: Shapes) -> OpenShapes:
+    """The arrays of ``shapes``; every kernel that takes shapes takes them as well."""
+    return OpenShapes(
+        shapes.bounds,
+        shapes.edges,
+        shapes.first_edge,
+        shapes.discs,
+        shapes.boxes,
+        shapes.frame,
+        shapes.buckets,
+        shapes.items,
+        shapes.row_starts,
+        shapes.row_edges,
+        shapes.occupied,
+        shapes.cells,
+    )
+
+
 class Same:
     """A world that is equal only to itself."""
 
@@ -114,6 +150,10 @@ class Same:
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Same) and other.world is self.world
+
+
+#: What kernels take as shapes.
+AnyShapes = Shapes | OpenShapes
 
 
 def shapes_of(world: World) -> tuple[Shapes, tuple[str, ...]]:

@@ -10,11 +10,11 @@ from motion_planner_node.world.clearance import (
     nearest_item,
     squared_distance_to_segment,
 )
-from motion_planner_node.world.shapes import Shapes
+from motion_planner_node.world.shapes import AnyShapes
 
 
 @kernel
-def clearance_with_slope(shapes: Shapes, x: float, y: float) -> tuple[float, float, float]:
+def clearance_with_slope(shapes: AnyShapes, x: float, y: float) -> tuple[float, float, float]:
     """Clearance [m] at (x, y), negative inside obstacles, and its derivatives by x and y.
 
     The derivatives are a unit vector; where several obstacles or edges are nearest it points away
@@ -45,7 +45,7 @@ def clearance_with_slope(shapes: Shapes, x: float, y: float) -> tuple[float, flo
 
 
 @kernel
-def _away_from_edge(shapes: Shapes, x: float, y: float) -> tuple[float, float]:
+def _away_from_edge(shapes: AnyShapes, x: float, y: float) -> tuple[float, float]:
     bounds = shapes.bounds
     west, east = x - bounds[0], bounds[2] - x
     south, north = y - bounds[1], bounds[3] - y
@@ -59,7 +59,7 @@ def _away_from_edge(shapes: Shapes, x: float, y: float) -> tuple[float, float]:
 
 @kernel
 def _nearest_point(
-    shapes: Shapes, first: int, last: int, x: float, y: float
+    shapes: AnyShapes, first: int, last: int, x: float, y: float
 ) -> tuple[float, float]:
     """The point of the edges from ``first`` on that is nearest to (x, y)."""
     least, near_x, near_y = inf, x, y
@@ -75,7 +75,7 @@ def _nearest_point(
 
 
 @kernel
-def _out_of(shapes: Shapes, first: int, last: int, x: float, y: float) -> tuple[float, float]:
+def _out_of(shapes: AnyShapes, first: int, last: int, x: float, y: float) -> tuple[float, float]:
     """The normal, pointing to where it is free, of the one of these edges that (x, y) lies on."""
     least, normal_x, normal_y = inf, 1.0, 0.0
     for i in range(first, last):
