@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import shapely
@@ -12,7 +12,7 @@ from tests.support.vehicle import TOLERANCE, Pose, Vehicle, gap
 
 from experiments.constraints.judge import Judge
 from experiments.constraints.sets import ConstraintSet
-from experiments.motion.goals import AGENT
+from experiments.motion.goals import AGENT, Array
 from experiments.motion.grounds import inside_obstacles, map_edges
 from experiments.motion.worlds import Place
 from motion_planner_node.robots.motion import Attitude, Motion
@@ -33,19 +33,20 @@ class Checker:
         self._place = place
         self._vehicle = Vehicle(place.robot)
         self._judge = Judge({'regions': [], 'obstacles': [], **place.document}, AGENT)
-        outlines = []
+        x_min, y_min, x_max, y_max = place.bounds
+        corners = [[x_min, y_min], [x_max, y_min], [x_max, y_max], [x_min, y_max]]
+        outlines = [_sides(corners)]
+        discs = []
         for obstacle in place.document.get('obstacles', ()):
             if 'polygon' in obstacle:
-                outlines.append(shapely.Polygon(obstacle['polygon']).exterior)
+                outlines.append(_sides(obstacle['polygon']))
             else:
-                # A polygon inside the circle: what is right must not be refused.
-                circle = obstacle['circle']
-                disc = shapely.Point(circle['center']).buffer(circle['radius'], quad_segs=512)
-                outlines.append(disc.exterior)
-        outlines.append(shapely.box(*place.bounds).exterior)
+                discs.append((*obstacle['circle']['center'], obstacle['circle']['radius']))
         if place.occupied is not None:
-            outlines += list(shapely.linestrings(map_edges(place).reshape(-1, 2, 2)))
-        self._boundaries = shapely.STRtree(outlines)
+            outlines.append(map_edges(place).reshape(-1, 2, 2))
+        # Side by side: a tree of short lines finds the nearest soonest.
+        self._boundaries = shapely.STRtree(shapely.linestrings(np.concatenate(outlines)))
+        self._discs = np.array(discs, np.float64).reshape(-1, 3)
 
     def missed(self, text: str, pose: Pose) -> float:
         """By how much an attitude misses the constraints in a text [m or rad]."""
@@ -65,11 +66,25 @@ class Checker:
         if not gap(last, pose) <= TOLERANCE:
             yield f'drives to {last}, not to {pose}'
         needed = self._vehicle.radius - TOLERANCE
-        _, distances = self._boundaries.query_nearest(
-            shapely.points(driven[:, :2]), max_distance=needed, return_distance=True
-        )
-        nearest = float(np.min(distances, initial=math.inf))
+        nearest = self._clearance(driven[:, :2], needed)
         if nearest < needed:
             yield f'{nearest} m from an obstacle or the edge, not {self._vehicle.radius}'
         if inside_obstacles(self._place, driven[[0, -1], :2]).any():
             yield 'starts or ends inside an obstacle'
+
+    def _clearance(self, points: Array, reach: float) -> float:
+        """Distance [m] of the nearest of ``points`` (n, 2) to an obstacle, where it is below ``reach``."""
+        _, distances = self._boundaries.query_nearest(
+            shapely.points(points), max_distance=reach, return_distance=True
+        )
+        nearest = float(np.min(distances, initial=math.inf))
+        for x, y, radius in self._discs:
+            away = np.hypot(points[:, 0] - x, points[:, 1] - y)
+            nearest = min(nearest, float(away.min()) - radius)
+        return nearest
+
+
+def _sides(corners: Sequence[Sequence[float]]) -> Array:
+    """The sides (n, 2, 2) of a polygon."""
+    rows = np.array(corners, np.float64)
+    return np.stack([rows, np.roll(rows, -1, axis=0)], axis=1)

@@ -40,7 +40,7 @@ class Sizes:
     requests: int = 1000
     legs: int = 80
     patience: float = 1.0
-    compared: int = 60
+    compared: int = 24
     rounds: int = 50
     stopped: int = 250
     exchanges: int = 300
@@ -98,6 +98,7 @@ class Experiment:
         for name in self.references:
             outcomes = ask(self.places[name], self.known(name, self.sizes.requests))
             worlds[name] = summary(outcomes)
+            print(f'{name}: {len(outcomes)} requests asked', flush=True)
         self.figures['reference'] = coverage
         self.figures['requests'] = worlds
         self.targets += request_targets(worlds)
