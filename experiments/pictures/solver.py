@@ -23,6 +23,7 @@ from matplotlib.patches import Polygon as Outline
 from motion_planner_node.functions import Array
 from motion_planner_node.language import parse
 from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import (
     Program,
     Room,
@@ -37,7 +38,7 @@ from motion_planner_node.satisfaction.paper_mode import (
     random_states,
 )
 from motion_planner_node.world.clearance import clearances
-from motion_planner_node.world.model import Bounds, CarModel, Polygon, World, WorldObject
+from motion_planner_node.world.model import Bounds, Polygon, World, WorldObject
 from motion_planner_node.world.shapes import shapes_of
 
 IMAGES = Path(__file__).resolve().parents[2] / 'docs' / 'images'
@@ -50,7 +51,7 @@ WORLD = World(
     bounds=BOUNDS,
     objects={'o': WorldObject('o', {'x': 50.0, 'y': 50.0})},
     obstacles=(HOUSE,),
-    robots={'r': CarModel('r', 4.0, 0.5, RADIUS, 2.0)},
+    robots={'r': Robot('r', 4.0, 0.5, RADIUS, 2.0)},
 )
 START = Attitude(20.0, 100.0, 0.0)
 RING = '(distance(r, o) >= 10)(distance(r, o) <= 20)'

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from motion_planner_node.codes import Code
 from motion_planner_node.errors import MotionPlannerError
 from motion_planner_node.language import check, parse
-from motion_planner_node.world.model import Bounds, CarModel, Circle, World, WorldObject
+from motion_planner_node.robots.robot import Robot
+from motion_planner_node.world.model import Bounds, Circle, World, WorldObject
 
 WORLD = World(
     source='',
@@ -20,7 +21,7 @@ WORLD = World(
         for label in ('location0', 'location1')
     },
     obstacles=(),
-    robots={label: CarModel(label, 8.0, 0.5, 5.0, 2.0) for label in ('rover0', 'rover1')},
+    robots={label: Robot(label, 8.0, 0.5, 5.0, 2.0) for label in ('rover0', 'rover1')},
     regions={'dock': Circle('dock', (50.0, 50.0), 20.0)},
 )
 STATED = '(agent rover0)(object location1)'

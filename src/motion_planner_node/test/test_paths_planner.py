@@ -18,12 +18,13 @@ from motion_planner_node.errors import Stopped
 from motion_planner_node.paths import PathBudget, PathOutcome, PathResult, plan_path
 from motion_planner_node.planner import warm_up
 from motion_planner_node.robots.motion import Attitude, Motion
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.world import Scene, read_world
-from motion_planner_node.world.model import Bounds, CarModel, Circle, Obstacle, Polygon, World
+from motion_planner_node.world.model import Bounds, Circle, Obstacle, Polygon, World
 
 PACKAGE = Path(__file__).parents[1]
 ROVER = PACKAGE.parent / 'interface_node' / 'missions' / 'rover' / 'world.yaml'
-CAR = CarModel('rover0', wheelbase=8.0, max_steering_angle=0.5, radius=5.0, speed=2.0)
+CAR = Robot('rover0', wheelbase=8.0, max_steering_angle=0.5, radius=5.0, speed=2.0)
 SPACING = 0.05
 
 
@@ -41,7 +42,7 @@ def scene_of(*obstacles: Obstacle) -> Scene:
     return Scene(World('', '', Bounds(0, 0, 800, 600), {}, obstacles, {'rover0': CAR}))
 
 
-def drive(motion: Motion, car: CarModel) -> tuple[NDArray[np.float64], Attitude]:
+def drive(motion: Motion, car: Robot) -> tuple[NDArray[np.float64], Attitude]:
     """Points (n, 2) on the motion, circles drawn from their centres, and where it ends."""
     x, y, heading = motion.start.x, motion.start.y, motion.start.heading
     points = [(x, y)]
@@ -61,7 +62,7 @@ def drive(motion: Motion, car: CarModel) -> tuple[NDArray[np.float64], Attitude]
     return np.array(points), Attitude(x, y, heading)
 
 
-def check(scene: Scene, car: CarModel, motion: Motion, goal: Attitude) -> None:
+def check(scene: Scene, car: Robot, motion: Motion, goal: Attitude) -> None:
     assert motion.agent == car.label
     angles = [segment.steering_angle for segment in motion.segments]
     assert set(angles) <= {-car.max_steering_angle, 0.0, car.max_steering_angle}

@@ -11,7 +11,8 @@ from motion_planner_node.codes import Status
 from motion_planner_node.planner import MotionPlanner
 from motion_planner_node.requests import GeometricRequest
 from motion_planner_node.robots.motion import Attitude
-from motion_planner_node.world.model import Bounds, CarModel, Polygon, World, WorldObject
+from motion_planner_node.robots.robot import Robot
+from motion_planner_node.world.model import Bounds, Polygon, World, WorldObject
 
 WALL = Polygon('wall', ((330.0, 180.0), (370.0, 180.0), (370.0, 420.0), (330.0, 420.0)))
 WORLD = World(
@@ -20,7 +21,7 @@ WORLD = World(
     bounds=Bounds(0.0, 0.0, 600.0, 600.0),
     objects={'o': WorldObject('o', {'x': 300.0, 'y': 300.0})},
     obstacles=(WALL,),
-    robots={'r': CarModel('r', 8.0, 0.5, 5.0, 2.0)},
+    robots={'r': Robot('r', 8.0, 0.5, 5.0, 2.0)},
 )
 STATE = {'r': Attitude(60.0, 300.0, 0.0)}
 PHOTO = (

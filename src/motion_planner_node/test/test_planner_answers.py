@@ -153,7 +153,7 @@ def test_a_start_in_an_obstacle_is_named() -> None:
     answer = ask(near('tree', 20.0), start={'rover0': Attitude(40.0, 182.0, 0.0)})
     assert (answer.code, answer.scope) == (Code.START_IN_OBSTACLE, Scope.THIS_START)
     assert '2 m from boulder' in answer.message
-    assert 'needs 5 m' in answer.message
+    assert 'less than its radius of 5 m' in answer.message
 
 
 @pytest.mark.parametrize('x', [1e300, -1e300, 200.5])
@@ -183,6 +183,30 @@ def test_a_walled_in_robot_is_explained() -> None:
     answer = ask(near('tree', 15.0), start={'rover0': Attitude(160.0, 40.0, 0.0)})
     assert (answer.code, answer.scope) == (Code.UNREACHABLE, Scope.CONNECTED_STARTS)
     assert 'rover0 is walled in' in answer.message
+
+
+def test_what_is_in_the_way_is_named_for_margins_and_footprints_too() -> None:
+    text = WORLD.replace('radius: 5.0, speed', 'radius: 1.0, safety_margin: 5.0, speed', 1)
+    text = text.replace(
+        'radius: 5.0, speed', 'footprint: [[-2, -2], [9, -2], [9, 2], [-2, 2]], speed'
+    )
+    planner = MotionPlanner(read_world(text, 'test.yaml'))
+    wide = '((agent rover0)(object {0})(distance(rover0, {0}) <= 4))'
+    answer = planner.satisfy(GeometricRequest(wide.format('vault'), START))
+    assert answer.code is Code.UNREACHABLE
+    assert 'bounded by vault_' in answer.message
+    assert answer.advice.startswith('open a passage wider than 12 m through vault_')
+    answer = planner.satisfy(GeometricRequest(wide.format('buried'), START))
+    assert answer.code is Code.NO_FREE_DESTINATION
+    assert answer.message.endswith(
+        'is blocked by boulder for rover0 with its radius of 1 m and its safety margin of 5 m'
+    )
+    near = {'rover0': Attitude(145.0, 40.0, 0.0), 'rover1': Attitude(121.0, 40.0, 0.0)}
+    answer = planner.satisfy(GeometricRequest('((agent rover1))', near))
+    assert answer.code is Code.START_IN_OBSTACLE
+    assert answer.message.endswith(
+        'is 9 m from vault_west, where there is no room for its footprint of 4 corners'
+    )
 
 
 def test_a_pocket_too_small_to_turn_in_is_unknown_and_not_impossible() -> None:

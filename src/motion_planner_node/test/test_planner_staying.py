@@ -10,7 +10,8 @@ from motion_planner_node.planner import MotionPlanner
 from motion_planner_node.planning import stream
 from motion_planner_node.requests import GeometricAnswer, GeometricRequest
 from motion_planner_node.robots.motion import Attitude, Motion
-from motion_planner_node.world.model import Bounds, CarModel, World, WorldObject
+from motion_planner_node.robots.robot import Robot
+from motion_planner_node.world.model import Bounds, World, WorldObject
 
 PHOTO = """((agent r)(object o) (distance(r, o) >= 50) (distance(r, o) <= 100)
  (rel_angle(r, o) = cos-and-sin(pi/2)))"""
@@ -20,7 +21,7 @@ WORLD = World(
     bounds=Bounds(0.0, 0.0, 400.0, 400.0),
     objects={'o': WorldObject('o', {'x': 200.0, 'y': 200.0})},
     obstacles=(),
-    robots={'r': CarModel('r', 8.0, 0.5, 5.0, 2.0)},
+    robots={'r': Robot('r', 8.0, 0.5, 5.0, 2.0)},
 )
 #: East of the object, looking away from it by a right angle: it is on the right.
 START = Attitude(275.0, 200.0, -pi / 2)

@@ -18,9 +18,9 @@ from motion_planner_node.robots.driving import (
     words_between,
 )
 from motion_planner_node.robots.motion import Attitude, Motion, Segment, merged
-from motion_planner_node.world.model import CarModel
+from motion_planner_node.robots.robot import Robot
 
-CAR = CarModel('rover', wheelbase=8.0, max_steering_angle=0.5, radius=5.0, speed=2.0)
+CAR = Robot('rover', wheelbase=8.0, max_steering_angle=0.5, radius=5.0, speed=2.0)
 
 headings = st.floats(-pi, pi)
 steering_angles = st.sampled_from([-0.5, 0.0, 0.5])

@@ -10,10 +10,10 @@ import pytest
 from motion_planner_node.errors import MotionPlannerError
 from motion_planner_node.language import check, parse
 from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import Program, compile_program, destinations
 from motion_planner_node.world.model import (
     Bounds,
-    CarModel,
     Circle,
     Polygon,
     World,
@@ -30,7 +30,7 @@ WORLD = World(
         'rock': WorldObject('rock', {'x': 80.0, 'y': 50.0}),
     },
     obstacles=(Polygon('wall', ((60.0, 30.0), (64.0, 30.0), (64.0, 70.0), (60.0, 70.0))),),
-    robots={label: CarModel(label, 2.0, 0.5, 1.0, 2.0) for label in ('r', 's')},
+    robots={label: Robot(label, 2.0, 0.5, 1.0, 2.0) for label in ('r', 's')},
     regions={
         'dock': Polygon('dock', ((10.0, 10.0), (40.0, 10.0), (40.0, 40.0), (10.0, 40.0))),
         'pond': Circle('pond', (20.0, 80.0), 10.0),

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from motion_planner_node.language import parse
 from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import (
     DescentOptions,
     Program,
@@ -20,7 +21,7 @@ from motion_planner_node.satisfaction import (
     from_start,
     restarts,
 )
-from motion_planner_node.world.model import Bounds, CarModel, World, WorldObject
+from motion_planner_node.world.model import Bounds, World, WorldObject
 
 PLACES = {'a': (67.0, 171.0), 'b': (206.0, 542.0), 'c': (362.0, 350.0), 'o': (50.0, 50.0)}
 BOUNDS = Bounds(0.0, 0.0, 800.0, 600.0)
@@ -30,7 +31,7 @@ WORLD = World(
     bounds=BOUNDS,
     objects={label: WorldObject(label, {'x': x, 'y': y}) for label, (x, y) in PLACES.items()},
     obstacles=(),
-    robots={'r': CarModel('r', 8.0, 0.5, 5.0, 2.0)},
+    robots={'r': Robot('r', 8.0, 0.5, 5.0, 2.0)},
 )
 START = Attitude(20.0, 100.0, 0.0)
 TAKE_PHOTO = '(distance(r, a) >= 50)(distance(r, a) <= 100)(rel_angle(r, a) = cos-and-sin(pi/2))'

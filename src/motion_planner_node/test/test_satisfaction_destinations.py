@@ -10,8 +10,9 @@ import pytest
 from motion_planner_node.functions import Array
 from motion_planner_node.language import parse
 from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import compile_program, destinations, possible_cells
-from motion_planner_node.world.model import Bounds, CarModel, World, WorldObject
+from motion_planner_node.world.model import Bounds, World, WorldObject
 
 BOUNDS = Bounds(0.0, 0.0, 800.0, 600.0)
 WORLD = World(
@@ -23,7 +24,7 @@ WORLD = World(
         'edge': WorldObject('edge', {'x': 400.0, 'y': 2.0}),
     },
     obstacles=(),
-    robots={'r': CarModel('r', 8.0, 0.5, 5.0, 2.0)},
+    robots={'r': Robot('r', 8.0, 0.5, 5.0, 2.0)},
 )
 START = Attitude(100.0, 100.0, 0.0)
 TAKE_PHOTO = (

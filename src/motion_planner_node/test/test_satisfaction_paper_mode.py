@@ -18,6 +18,7 @@ from motion_planner_node.parameters import Parameters
 from motion_planner_node.planner import MotionPlanner
 from motion_planner_node.requests import GeometricRequest
 from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import compile_program
 from motion_planner_node.satisfaction.paper_mode import (
     Iterate,
@@ -26,7 +27,7 @@ from motion_planner_node.satisfaction.paper_mode import (
     algorithm_1,
     random_states,
 )
-from motion_planner_node.world.model import Bounds, CarModel, Circle, World, WorldObject
+from motion_planner_node.world.model import Bounds, Circle, World, WorldObject
 
 WORLD = World(
     source='',
@@ -34,7 +35,7 @@ WORLD = World(
     bounds=Bounds(0.0, 0.0, 200.0, 200.0),
     objects={'o': WorldObject('o', {'x': 50.0, 'y': 50.0})},
     obstacles=(Circle('pond', (75.0, 50.0), 8.0),),
-    robots={'r': CarModel('r', 8.0, 0.5, 5.0, 2.0)},
+    robots={'r': Robot('r', 8.0, 0.5, 5.0, 2.0)},
 )
 START = np.array([20.0, 100.0, 0.0])
 RING = '(distance(r, o) >= 10)(distance(r, o) <= 20)'

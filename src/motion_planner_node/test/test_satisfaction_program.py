@@ -13,10 +13,11 @@ from motion_planner_node.codes import Code
 from motion_planner_node.errors import MotionPlannerError
 from motion_planner_node.language import parse
 from motion_planner_node.robots.motion import Attitude, GeometricState
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import Program, compile_program
-from motion_planner_node.world.model import Bounds, CarModel, World, WorldObject
+from motion_planner_node.world.model import Bounds, World, WorldObject
 
-CAR = CarModel('rover0', 8.0, 0.5, 5.0, 2.0)
+CAR = Robot('rover0', 8.0, 0.5, 5.0, 2.0)
 WORLD = World(
     source='',
     revision='',

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from motion_planner_node.language import parse
 from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import (
     DescentOptions,
     Program,
@@ -22,7 +23,7 @@ from motion_planner_node.satisfaction import (
     unsolved,
 )
 from motion_planner_node.world.clearance import clearances
-from motion_planner_node.world.model import Bounds, CarModel, Circle, Polygon, World, WorldObject
+from motion_planner_node.world.model import Bounds, Circle, Polygon, World, WorldObject
 from motion_planner_node.world.shapes import shapes_of
 
 PLACES = {'a': (200.0, 200.0), 'b': (235.0, 200.0), 'c': (350.0, 400.0)}
@@ -34,7 +35,7 @@ WORLD = World(
     bounds=BOUNDS,
     objects={label: WorldObject(label, {'x': x, 'y': y}) for label, (x, y) in PLACES.items()},
     obstacles=(WALL, Circle('tree', (400.0, 100.0), 30.0)),
-    robots={'r': CarModel('r', 8.0, 0.5, 5.0, 2.0)},
+    robots={'r': Robot('r', 8.0, 0.5, 5.0, 2.0)},
 )
 START = Attitude(20.0, 100.0, 0.0)
 ROOM = Room(shapes_of(WORLD)[0], 5.0)

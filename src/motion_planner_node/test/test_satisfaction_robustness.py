@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 from motion_planner_node.errors import MotionPlannerError
 from motion_planner_node.language import parse
 from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import compile_program, destinations, restarts
-from motion_planner_node.world.model import Bounds, CarModel, World, WorldObject
+from motion_planner_node.world.model import Bounds, World, WorldObject
 
 BOUNDS = Bounds(0.0, 0.0, 100.0, 80.0)
 WORLD = World(
@@ -22,7 +23,7 @@ WORLD = World(
         'b': WorldObject('b', {'x': 70.0, 'y': 50.0}),
     },
     obstacles=(),
-    robots={'r': CarModel('r', 8.0, 0.5, 5.0, 2.0)},
+    robots={'r': Robot('r', 8.0, 0.5, 5.0, 2.0)},
 )
 START = Attitude(20.0, 20.0, 0.0)
 

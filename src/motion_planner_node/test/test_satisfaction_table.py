@@ -12,9 +12,10 @@ from hypothesis import strategies as st
 from motion_planner_node.functions import Array
 from motion_planner_node.language import parse
 from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import Program, compile_program, descend
 from motion_planner_node.satisfaction.evaluation import evaluate, tell, workspace
-from motion_planner_node.world.model import Bounds, CarModel, World, WorldObject
+from motion_planner_node.world.model import Bounds, World, WorldObject
 
 WORLD = World(
     source='',
@@ -25,7 +26,7 @@ WORLD = World(
         'b': WorldObject('b', {'x': 206.0, 'y': 542.0}),
     },
     obstacles=(),
-    robots={'r': CarModel('r', 8.0, 0.5, 5.0, 2.0)},
+    robots={'r': Robot('r', 8.0, 0.5, 5.0, 2.0)},
 )
 TAKE_PHOTO = '(distance(r, a) >= 50)(distance(r, a) <= 100)(rel_angle(r, a) = cos-and-sin(pi/2))'
 EVERYTHING = TAKE_PHOTO + (

@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 
 from motion_planner_node.robots.driving import sample
 from motion_planner_node.robots.motion import Attitude, Motion, Segment
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.world import MAP_EDGE, Scene
-from motion_planner_node.world.model import Bounds, CarModel, Circle, Obstacle, Polygon, World
+from motion_planner_node.world.model import Bounds, Circle, Obstacle, Polygon, World
 from motion_planner_node.world.signed_distance import clearances_with_slopes
 
-CAR = CarModel('rover', wheelbase=8.0, max_steering_angle=0.5, radius=5.0, speed=2.0)
+CAR = Robot('rover', wheelbase=8.0, max_steering_angle=0.5, radius=5.0, speed=2.0)
 BOUNDS = Bounds(-20.0, -10.0, 120.0, 110.0)
 SPACING = 0.02
 
@@ -143,7 +144,7 @@ def test_the_least_distance_of_an_arc_is_exact(
     close = sample(near, CAR, near.length / 4000)
     least = shapely.distance(outline, shapely.points(close[:, :2])).min()
     assume(least > 0.01)
-    car = CarModel('rover', 8.0, 0.5, radius=float(least + change), speed=1.0)
+    car = Robot('rover', 8.0, 0.5, radius=float(least + change), speed=1.0)
     assert Scene(world).motion_is_free(motion, car) is (change < 0)
 
 
@@ -167,7 +168,7 @@ def test_a_disc_may_touch() -> None:
 
 
 def test_a_point_robot_does_not_pass_through_a_corner() -> None:
-    point = CarModel('rover', 8.0, 0.5, radius=0.0, speed=1.0)
+    point = Robot('rover', 8.0, 0.5, radius=0.0, speed=1.0)
     diamond = Polygon('diamond', ((50, 50), (60, 40), (70, 50), (60, 60)))
     through = Motion('rover', Attitude(10, 50, 0.0), (Segment(0.0, 90.0),))
     past = Motion('rover', Attitude(10, 60.01, 0.0), (Segment(0.0, 90.0),))

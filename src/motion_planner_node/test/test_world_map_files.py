@@ -170,6 +170,15 @@ def test_pictures_that_are_none(folder: Path, monkeypatch: pytest.MonkeyPatch) -
     assert 'more than 3 edges' in faults_of(folder)
 
 
+def test_names_of_files_may_have_long_directories(folder: Path) -> None:
+    deep = folder / '/'.join(['d' * 60] * 4)
+    deep.mkdir(parents=True)
+    Image.fromarray(GREYS).save(deep / 'map.pgm')
+    (deep / 'map.yaml').write_text(MAP.replace('map.pgm', f'{deep}/map.pgm'))
+    assert grid_of(folder, f'map: {deep}/map.yaml').occupied.tolist() == [[0, 0, 1], [1, 0, 1]]
+    assert 'is longer than 4096 characters' in faults_of(folder, f'map: {"d/" * 2048}m')
+
+
 def test_files_that_are_none(folder: Path) -> None:
     os.mkfifo(folder / 'pipe')
     (folder / 'loop').symlink_to(folder / 'loop')

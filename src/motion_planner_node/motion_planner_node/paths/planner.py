@@ -81,5 +81,5 @@ def _blocked(scene: Scene, robot: Robot, what: str, attitude: Attitude) -> str:
     name, clearance = scene.nearest_obstacle(attitude.x, attitude.y)
     return (
         f'the {what} ({attitude.x:g}, {attitude.y:g}) is {clearance:.3f} m from {name}, '
-        f'closer than the radius {robot.radius:g} m'
+        f'{robot.lack}'
     )

@@ -78,7 +78,7 @@ class Ground:
         name, clearance = self.scene.nearest_obstacle(attitude.x, attitude.y)
         if clearance < 0.0:
             return f'{here} is {-clearance:.4g} m inside {name}'
-        return f'{here} is {clearance:.4g} m from {name}; the robot needs {self.robot.radius:g} m'
+        return f'{here} is {clearance:.4g} m from {name}, {self.robot.lack}'
 
     def can_turn_round(self, states: NDArray[np.float64]) -> NDArray[np.bool_]:
         """At which free attitudes (n, 3) there is room to turn, shape (n,); see `turning_room`."""
@@ -138,7 +138,7 @@ class Ground:
         boxes = self.cells.boxes.chosen(self.parts == part)
         x, y = boxes.centres
         near = self.scene.clearance(np.column_stack([x, y])) < (
-            self.robot.radius + 1.5 * self._free.resolution
+            necessary_clearance(self.robot.body) + 1.5 * self._free.resolution
         )
         rim = np.flatnonzero(near)
         rim = rim[:: max(1, len(rim) // RIM_PLACES)]

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from motion_planner_node.codes import Code, Scope
 from motion_planner_node.planning.ground import Area, Ground
 from motion_planner_node.planning.problem import Problem
+from motion_planner_node.robots.body import necessary_clearance
 from motion_planner_node.satisfaction import branch_and_prune
 
 
@@ -76,19 +77,23 @@ def _no_free_place(problem: Problem, ground: Ground) -> Impossible:
         return Impossible(Code.CONTRADICTION, scope_of(problem, Scope.ANY_START), sentence)
     everywhere = ground.everywhere
     places = everywhere.boxes.chosen(everywhere.select(problem.program.position_cells))
-    near = (ground.scene.nearest_obstacle(x, y) for x, y in zip(*places.centres, strict=True))
-    names = sorted({name for name, clearance in near if clearance < ground.robot.radius})
+    near = [ground.scene.nearest_obstacle(x, y) for x, y in zip(*places.centres, strict=True)]
+    needed = necessary_clearance(ground.robot.body)
+    names = sorted({name for name, clearance in near if clearance < needed})
+    # The middle of a box may have the room that nothing in it that will do has.
+    names = names or sorted({name for name, _ in near})
     return Impossible(
         Code.NO_FREE_DESTINATION,
         scope_of(problem, Scope.ANY_START),
         f'every place from which {_wanted(problem)} holds is blocked by {_listed(names)} '
-        f'for a robot of radius {ground.robot.radius:g} m',
+        f'for {problem.agent} with {ground.robot.extent}',
         f'move {_listed(names)} or relax the constraints',
     )
 
 
 def _enclosed(problem: Problem, ground: Ground, here: int, there: int) -> Impossible:
     own, other = ground.area(here), ground.area(there)
+    width = 2.0 * (ground.robot.radius + ground.robot.safety_margin)
     target = ' and '.join(problem.program.objects) or 'the destination'
     wanted = _wanted(problem)
     if own.size < other.size:
@@ -107,8 +112,7 @@ def _enclosed(problem: Problem, ground: Ground, here: int, there: int) -> Imposs
         Code.UNREACHABLE,
         scope_of(problem, Scope.CONNECTED_STARTS),
         message,
-        f'open a passage wider than {2.0 * ground.robot.radius:g} m through '
-        f'{_listed(walls.obstacles)}',
+        f'open a passage wider than {width:g} m through {_listed(walls.obstacles)}',
     )
 
 

@@ -70,6 +70,12 @@ class Robot:
         margin = f' and its safety margin of {self.safety_margin:g} m'
         return shape + margin if self.safety_margin else shape
 
+    @property
+    def lack(self) -> str:
+        """What is wrong where a robot cannot stand, to be put behind the clearance there."""
+        before = 'where there is no room for' if self.footprint else 'less than'
+        return f'{before} {self.extent}'
+
     def curvature(self, steering_angle: float) -> float:
         """Curvature [1/m] of the arc driven at ``steering_angle`` [rad]."""
         return tan(steering_angle) / self.wheelbase if steering_angle else 0.0

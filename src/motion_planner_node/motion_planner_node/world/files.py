@@ -10,6 +10,9 @@ from typing import NamedTuple
 from motion_planner_node.world.syntax import Place
 from motion_planner_node.world.values import Faults
 
+#: The longest name of a file with its directories [characters].
+LONGEST_PATH = 4096
+
 
 class File(NamedTuple):
     """A file that was read: its path, and what is in it."""

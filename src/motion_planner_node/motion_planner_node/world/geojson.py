@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from motion_planner_node.world.files import read_file
+from motion_planner_node.world.files import LONGEST_PATH, read_file
 from motion_planner_node.world.model import Polygon
 from motion_planner_node.world.outlines import read_polygon
 from motion_planner_node.world.syntax import Mapping, Node, Sequence, read_tree
@@ -22,7 +22,7 @@ def read_geojson(node: Node, directory: str, faults: Faults) -> list[Named]:
 
     What is wrong goes to ``faults``, with a JSON pointer and the line in the file.
     """
-    name = read_text(node, 'geojson', faults)
+    name = read_text(node, 'geojson', faults, LONGEST_PATH)
     if name is None:
         return []
     file = read_file(directory, name, LONGEST_FILE, 'the GeoJSON file', node.place, faults)

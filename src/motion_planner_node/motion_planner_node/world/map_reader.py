@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motion_planner_node.robots.arcs import wrap_angle
-from motion_planner_node.world.files import directory_of, read_file
+from motion_planner_node.world.files import LONGEST_PATH, directory_of, read_file
 from motion_planner_node.world.map_edges import count_edges
 from motion_planner_node.world.map_image import LONGEST_SIDE, ImageError, Picture, read_picture
 from motion_planner_node.world.model import OccupancyMap
@@ -67,7 +67,7 @@ def read_map(node: Node, directory: str, faults: Faults) -> OccupancyMap | None:
         if 'file' not in fields:
             return None
         node = fields['file']
-    name = read_text(node, 'the file of the map', faults)
+    name = read_text(node, 'the file of the map', faults, LONGEST_PATH)
     if name is None:
         return None
     file = read_file(directory, name, LONGEST_TEXT, 'the map', node.place, faults)
@@ -165,7 +165,7 @@ class _MapReader:
         return node.text
 
     def _picture(self, node: Node) -> Picture | None:
-        name = read_text(node, 'image', self._faults)
+        name = read_text(node, 'image', self._faults, LONGEST_PATH)
         if name is None:
             return None
         directory = directory_of(self._path)

@@ -53,10 +53,6 @@ Obstacle = Polygon | Circle
 Region = Polygon | Circle
 
 
-#: A robot of model car, as the paper's.
-CarModel = Robot
-
-
 @dataclass(frozen=True, slots=True)
 class OccupancyMap:
     """Square cells that are free or occupied; robots stay clear of the occupied ones.

@@ -70,8 +70,7 @@ def check_starts(scene: Scene, starts: Starts, faults: Faults) -> None:
             continue
         name, clearance = scene.nearest_obstacle(start.x, start.y)
         where = f'{robot.label} starts at ({start.x:g}, {start.y:g}), {clearance:.3f} m from {name}'
-        problem = 'where there is no room for' if robot.footprint else 'less than'
-        faults.add(f'{where}: {problem} {robot.extent}', place)
+        faults.add(f'{where}: {robot.lack}', place)
 
 
 class _RobotReader:

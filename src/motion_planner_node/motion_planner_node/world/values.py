@@ -24,7 +24,7 @@ _BOOLEANS = frozenset({'true', 'false', 'yes', 'no', 'on', 'off'})
 _LABEL = re.compile(r'[^\W\d]\w*(-[^\W\d_]\w*)*')
 _FIELD = re.compile(r'[^\W\d]\w*')
 _RESERVED = frozenset({'pi', 'nil'})
-_LONGEST_NAME = 100
+LONGEST_NAME = 100
 
 
 class Faults:
@@ -177,8 +177,8 @@ def read_fields(
 
 def check_label(label: str, place: Place, what: str, faults: Faults) -> None:
     """Note when ``label`` cannot be written in the Lisp syntax and in preconditions."""
-    if len(label) > _LONGEST_NAME:
-        faults.add(f'{what} has a name longer than {_LONGEST_NAME} characters', place, label)
+    if len(label) > LONGEST_NAME:
+        faults.add(f'{what} has a name longer than {LONGEST_NAME} characters', place, label)
     elif label in _RESERVED:
         faults.add(f'{what} cannot be called {label}, which has a meaning already', place, label)
     elif not _LABEL.fullmatch(label):
@@ -191,17 +191,17 @@ def check_label(label: str, place: Place, what: str, faults: Faults) -> None:
 
 def check_field(name: str, place: Place, what: str, faults: Faults) -> None:
     """Note when ``name`` cannot be the name of a field in preconditions."""
-    if len(name) > _LONGEST_NAME or not _FIELD.fullmatch(name):
+    if len(name) > LONGEST_NAME or not _FIELD.fullmatch(name):
         message = f'{what} cannot have a field "{name[:40]}": letters, digits and _ are allowed'
         faults.add(message, place, name)
 
 
-def read_text(node: Node, what: str, faults: Faults) -> str | None:
-    """A text of one line that is not empty."""
+def read_text(node: Node, what: str, faults: Faults, most: int = LONGEST_NAME) -> str | None:
+    """A text of one line that is not empty and has at most ``most`` characters."""
     if not isinstance(node, Scalar) or not node.text.strip() or '\n' in node.text:
         faults.add(f'{what} has to be a text of one line, not {kind_of(node)}', node.place)
         return None
-    if len(node.text) > _LONGEST_NAME:
-        faults.add(f'{what} is longer than {_LONGEST_NAME} characters', node.place, node.text)
+    if len(node.text) > most:
+        faults.add(f'{what} is longer than {most} characters', node.place, node.text)
         return None
     return node.text
