@@ -7,7 +7,13 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from task_planner_node.errors import Diagnostic, GeometryUnavailable, MissionError, Severity
-from task_planner_node.language import check_mission, load_source, read_domain, read_problem
+from task_planner_node.language import (
+    Spelling,
+    check_mission,
+    load_source,
+    read_domain,
+    read_problem,
+)
 from task_planner_node.language.model import Domain, Problem
 from task_planner_node.language.reader import ListNode, Node, Symbol, first_word
 from task_planner_node.oracle import Oracle
@@ -34,16 +40,27 @@ class Mission:
 
 
 def read_mission(domain: MissionText, problem: MissionText) -> tuple[Domain, Problem]:
-    """Read both texts; raises MissionError with what is wrong in either of them."""
-    errors: list[Diagnostic] = []
-    read_one = _attempt(
-        errors, lambda: read_domain(load_source('domain', domain.path, domain.text))
-    )
+    """Read both texts; raises MissionError with what is wrong in either of them.
+
+    The problem is read first, so that labels are spelt as in its facts.
+    """
+    of_domain: list[Diagnostic] = []
+    of_problem: list[Diagnostic] = []
+    spelling = Spelling()
     read_two = _attempt(
-        errors, lambda: read_problem(load_source('problem', problem.path, problem.text))
+        of_problem,
+        lambda: read_problem(load_source('problem', problem.path, problem.text), spelling),
+    )
+    read_one = _attempt(
+        of_domain,
+        lambda: read_domain(
+            load_source('domain', domain.path, domain.text),
+            spelling,
+            read_two.domain_name if read_two else '',
+        ),
     )
     if read_one is None or read_two is None:
-        raise MissionError(errors)
+        raise MissionError([*of_domain, *of_problem])
     return read_one, read_two
 
 

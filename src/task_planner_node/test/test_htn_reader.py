@@ -14,7 +14,7 @@ from task_planner_node.language import Source, load_source, read_domain
 from task_planner_node.language.reader import MAX_DEPTH, ListNode, Node, Symbol, read
 from task_planner_node.language.source import MAX_BYTES
 
-SYMBOLS = st.text(st.sampled_from('abz?!_-.0:=<>/*,'), min_size=1, max_size=6)
+SYMBOLS = st.text(st.sampled_from('abz?!_-.0:=<>/*&'), min_size=1, max_size=6)
 TREES = st.recursive(SYMBOLS, lambda inner: st.lists(inner, max_size=4), max_leaves=25)
 GAPS = st.sampled_from([' ', '\n', '\t ', ' ; note (\n', '\r\n'])
 

@@ -2,53 +2,36 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 
 from task_planner_node.errors import Diagnostic, Severity
-from task_planner_node.language.expressions import atoms_of, tasks_of, variables_of
-from task_planner_node.language.model import (
-    And,
-    Atom,
-    Condition,
-    Domain,
-    GeometricText,
-    Not,
-    Operator,
-    Problem,
-    TaskNetwork,
-    show,
-)
+from task_planner_node.language.bindings import check_bindings
+from task_planner_node.language.model import Atom, Condition, Domain, Operator, Problem, show
+from task_planner_node.language.operators import VARIABLE
 from task_planner_node.language.reader import ListNode, Node, Symbol
+from task_planner_node.language.singletons import check_singletons
 from task_planner_node.language.source import Source
 from task_planner_node.language.suggestions import did_you_mean
+from task_planner_node.language.walk import atoms_of, conditions_in, facts_of, is_open, tasks_of
 
-VARIABLE = re.compile(r'\?[A-Za-z_][A-Za-z0-9_]*(?:-[A-Za-z][A-Za-z0-9_]*)*')
+__all__ = ['VARIABLE', 'check_mission']
 
 
 def check_mission(domain: Domain, problem: Problem) -> list[Diagnostic]:
     """All errors and warnings of a mission, in the order of the texts, the domain's first."""
     remarks = [
+        *domain.remarks,
+        *problem.remarks,
         *_check_operators(domain),
-        *_check_methods(domain),
+        *check_bindings(domain),
+        *check_singletons(domain),
         *_check_tasks(domain, problem),
         *_check_predicates(domain, problem),
         *_check_domain_name(domain, problem),
         *_check_objects(domain, problem),
     ]
-    return sorted(remarks, key=lambda r: (r.source != domain.source.name, r.line, r.column))
-
-
-def bound_by(condition: Condition) -> set[str]:
-    """The variables that every solution of ``condition`` binds."""
-    if isinstance(condition, Atom):
-        return set(variables_of(condition))
-    if isinstance(condition, Not):
-        return set()
-    parts = [bound_by(part) for part in condition.conditions]
-    if isinstance(condition, And):
-        return set().union(*parts)
-    return set.intersection(*parts) if parts else set()
+    order = {domain.source.name: 0}
+    return sorted(dict.fromkeys(remarks), key=lambda r: (order.get(r.source, 1), r.line, r.column))
 
 
 def _at(
@@ -57,11 +40,8 @@ def _at(
     return source.diagnostic(node.start, node.end, message, severity)
 
 
-def _unbound(source: Source, atom: Atom, bound: set[str], what: str) -> Iterator[Diagnostic]:
-    for name in dict.fromkeys(variables_of(atom)):
-        if name not in bound:
-            message = f'{name} in {what} is bound by neither the head nor the preconditions'
-            yield _at(source, atom.node, message + did_you_mean(name, bound))
+def _warning(source: Source, atom: Atom, message: str) -> Diagnostic:
+    return _at(source, atom.node, message, Severity.WARNING)
 
 
 def _check_operators(domain: Domain) -> Iterator[Diagnostic]:
@@ -74,55 +54,26 @@ def _check_operators(domain: Domain) -> Iterator[Diagnostic]:
             message = f'operator {head.name} is already defined at line {line}, column {column}'
             yield _at(source, head.node, message)
         first.setdefault(head.name, operator)
-        bound = set(variables_of(head)) | bound_by(operator.condition)
-        for effect in (*operator.deletes, *operator.adds):
-            yield from _unbound(source, effect, bound, 'an effect')
-        if operator.geometric is not None:
-            yield from _unbound_in_text(source, operator.geometric, bound)
-
-
-def _unbound_in_text(
-    source: Source, geometric: GeometricText, bound: set[str]
-) -> Iterator[Diagnostic]:
-    for match in VARIABLE.finditer(geometric.text):
-        name = match.group()
-        if name not in bound:
-            start = geometric.node.start + match.start()
-            message = (
-                f'{name} in the geometric preconditions is bound by neither the head nor the '
-                f'symbolic preconditions{did_you_mean(name, bound)}'
-            )
-            yield source.diagnostic(start, start + len(name), message)
-
-
-def _check_methods(domain: Domain) -> Iterator[Diagnostic]:
-    arities = _arities(domain)
-    for method in domain.methods:
-        head = set(variables_of(method.head))
-        for branch in method.branches:
-            bound = head | bound_by(branch.condition)
-            for task in tasks_of(branch.tasks):
-                yield from _unbound(domain.source, task, bound, 'a task')
-            yield from _undefined(arities, domain.source, branch.tasks)
 
 
 def _heads(domain: Domain) -> list[Atom]:
     return [o.head for o in domain.operators] + [m.head for m in domain.methods]
 
 
-def _arities(domain: Domain) -> dict[str, set[int]]:
+def _check_tasks(domain: Domain, problem: Problem) -> Iterator[Diagnostic]:
     arities: dict[str, set[int]] = {}
     for head in _heads(domain):
         arities.setdefault(head.name, set()).add(len(head.args))
-    return arities
-
-
-def _undefined(
-    arities: dict[str, set[int]], source: Source, network: TaskNetwork
-) -> Iterator[Diagnostic]:
-    for task in tasks_of(network):
-        kind = 'operator' if task.name.startswith('!') else 'method'
+    used = [
+        (domain.source, task)
+        for method in domain.methods
+        for branch in method.branches
+        for task in tasks_of(branch.tasks)
+    ]
+    used += [(problem.source, task) for task in tasks_of(problem.tasks)]
+    for source, task in used:
         if task.name not in arities:
+            kind = 'operator' if task.name.startswith('!') else 'method'
             message = f'no {kind} is defined for {show(task)}{did_you_mean(task.name, arities)}'
             yield _at(source, task.node, message)
         elif len(task.args) not in arities[task.name]:
@@ -131,13 +82,10 @@ def _undefined(
             yield _at(source, task.node, message)
 
 
-def _check_tasks(domain: Domain, problem: Problem) -> Iterator[Diagnostic]:
-    yield from _undefined(_arities(domain), problem.source, problem.tasks)
-
-
 def _conditions(domain: Domain) -> Iterator[Condition]:
     for operator in domain.operators:
         yield operator.condition
+        yield from conditions_in((*operator.deletes, *operator.adds))
     for method in domain.methods:
         for branch in method.branches:
             yield branch.condition
@@ -148,15 +96,20 @@ def _conditions(domain: Domain) -> Iterator[Condition]:
 def _check_predicates(domain: Domain, problem: Problem) -> Iterator[Diagnostic]:
     """Predicates that nothing makes true, and predicates with differing numbers of arguments."""
     made = [(problem.source, fact) for fact in problem.facts]
-    made += [(domain.source, effect) for op in domain.operators for effect in op.adds]
+    made += [(domain.source, fact) for op in domain.operators for fact in facts_of(op.adds)]
     made += [(domain.source, axiom.head) for axiom in domain.axioms]
     used = [
         (domain.source, atom, positive)
         for condition in _conditions(domain)
         for atom, positive in atoms_of(condition)
     ]
+    for condition in (problem.precondition, problem.goal):
+        used += [(problem.source, atom, positive) for atom, positive in atoms_of(condition)]
     used += [(problem.source, goal, True) for goal in problem.goals]
-    used += [(domain.source, effect, False) for op in domain.operators for effect in op.deletes]
+    used += [
+        (domain.source, fact, False) for op in domain.operators for fact in facts_of(op.deletes)
+    ]
+    anything = any(is_open(operator.adds) for operator in domain.operators)
     arities: dict[str, set[int]] = {}
     for _, atom in made:
         arities.setdefault(atom.name, set()).add(len(atom.args))
@@ -164,7 +117,7 @@ def _check_predicates(domain: Domain, problem: Problem) -> Iterator[Diagnostic]:
     for source, atom, positive in used:
         count = len(atom.args)
         known = arities.get(atom.name)
-        if (atom.name, count) in reported or (known is None and not positive):
+        if (atom.name, count) in reported or (known is None and (anything or not positive)):
             continue
         if known is None:
             reported.add((atom.name, count))
@@ -176,10 +129,6 @@ def _check_predicates(domain: Domain, problem: Problem) -> Iterator[Diagnostic]:
             yield _warning(
                 source, atom, f'{atom.name} has {wanted} arguments elsewhere, not {count}'
             )
-
-
-def _warning(source: Source, atom: Atom, message: str) -> Diagnostic:
-    return _at(source, atom.node, message, Severity.WARNING)
 
 
 def _check_domain_name(domain: Domain, problem: Problem) -> Iterator[Diagnostic]:
@@ -210,12 +159,12 @@ def _check_objects(domain: Domain, problem: Problem) -> Iterator[Diagnostic]:
 
     Only the goals ``(list (literal) ...)`` are looked at: elsewhere a new symbol may well be meant.
     """
-    known = {symbol.text for fact in problem.facts for symbol in _symbols(fact.node)}
+    known = {symbol.text.lower() for fact in problem.facts for symbol in _symbols(fact.node)}
     labels = {symbol.text for symbol in _arguments(fact.node for fact in problem.facts)}
     for head in _heads(domain):
-        known.update(symbol.text for symbol in _symbols(head.node))
+        known.update(symbol.text.lower() for symbol in _symbols(head.node))
     for symbol in _arguments(goal.node for goal in problem.goals):
-        if symbol.text not in known and symbol.text.lower() != 'nil':
+        if symbol.text.lower() not in known and symbol.text.lower() != 'nil':
             message = f'{symbol.text} occurs in no fact of the initial state'
             hint = did_you_mean(symbol.text, labels)
             yield _at(problem.source, symbol, message + hint, Severity.WARNING)

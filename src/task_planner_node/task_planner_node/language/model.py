@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
+from task_planner_node.errors import Diagnostic
 from task_planner_node.language.reader import ListNode, Node
 from task_planner_node.language.source import Source
 
@@ -201,6 +202,14 @@ class Collect:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Stated:
+    """A variable in the place of a literal: holds when its value, ``(name argument ...)``, holds as a literal does."""
+
+    variable: Variable
+    node: Node
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Enforce:
     """``(enforce condition message ...)``: like ``condition``, but without a solution the mission is in error.
 
@@ -245,6 +254,7 @@ Condition = (
     | AssignEach
     | Holds
     | Collect
+    | Stated
     | Enforce
     | First
     | SortBy
@@ -325,12 +335,13 @@ class Protection:
     deleted as often as it was added.  Protecting what does not hold once the operator is applied is an error.
     """
 
-    literal: Atom
+    literal: Atom | Variable
     positive: bool
     node: Node
 
 
-Effect = Atom | ForEach | Spread | Protection
+# A variable stands for one fact, which is its value: a list that begins with a name.
+Effect = Atom | Variable | ForEach | Spread | Protection
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -400,13 +411,17 @@ class Axiom:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Domain:
-    """All definitions of a domain in the order of the text; the name is empty for bare forms."""
+    """All definitions of a domain in the order of the text; the name is empty for bare forms.
+
+    ``remarks`` are warnings that reading it gave.
+    """
 
     source: Source
     name: str = ''
     operators: tuple[Operator, ...] = ()
     methods: tuple[Method, ...] = ()
     axioms: tuple[Axiom, ...] = ()
+    remarks: tuple[Diagnostic, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -428,6 +443,7 @@ class Problem:
     goals: tuple[Atom, ...] = field(default=())
     precondition: Condition = NOTHING
     goal: Condition = NOTHING
+    remarks: tuple[Diagnostic, ...] = ()
 
 
 def show(term: object) -> str:
