@@ -64,6 +64,8 @@ def _check_tasks(domain: Domain, problem: Problem) -> Iterator[Diagnostic]:
     arities: dict[str, set[int]] = {}
     for head in _heads(domain):
         arities.setdefault(head.name, set()).add(len(head.args))
+    for name, count in domain.declared:
+        arities.setdefault(name, set()).add(count)
     used = [
         (domain.source, task)
         for method in domain.methods
@@ -135,7 +137,8 @@ def _check_domain_name(domain: Domain, problem: Problem) -> Iterator[Diagnostic]
     node = problem.domain_node
     if node is not None and domain.name and domain.name != problem.domain_name:
         message = f'the problem is for domain {problem.domain_name}, the domain is {domain.name}'
-        yield _at(problem.source, node, message)
+        severity = Severity.WARNING if domain.typed else Severity.ERROR
+        yield _at(problem.source, node, message, severity)
 
 
 def _symbols(node: Node) -> Iterator[Symbol]:
@@ -160,6 +163,7 @@ def _check_objects(domain: Domain, problem: Problem) -> Iterator[Diagnostic]:
     Only the goals ``(list (literal) ...)`` are looked at: elsewhere a new symbol may well be meant.
     """
     known = {symbol.text.lower() for fact in problem.facts for symbol in _symbols(fact.node)}
+    known |= {arg.lower() for fact in problem.facts for arg in fact.args if isinstance(arg, str)}
     labels = {symbol.text for symbol in _arguments(fact.node for fact in problem.facts)}
     for head in _heads(domain):
         known.update(symbol.text.lower() for symbol in _symbols(head.node))

@@ -44,7 +44,7 @@ class Variable:
     @property
     def anonymous(self) -> bool:
         """Whether nothing else may refer to it."""
-        return self.name.startswith('?_')
+        return self.name.startswith('?_') and '#' in self.name
 
 
 @dataclass(frozen=True, slots=True)
@@ -413,6 +413,7 @@ class Axiom:
 class Domain:
     """All definitions of a domain in the order of the text; the name is empty for bare forms.
 
+    ``declared`` are the names of tasks that need no method, ``typed`` tells that HDDL declared all variables, and
     ``remarks`` are warnings that reading it gave.
     """
 
@@ -422,6 +423,8 @@ class Domain:
     methods: tuple[Method, ...] = ()
     axioms: tuple[Axiom, ...] = ()
     remarks: tuple[Diagnostic, ...] = ()
+    declared: frozenset[tuple[str, int]] = frozenset()
+    typed: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)

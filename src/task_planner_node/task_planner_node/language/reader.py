@@ -9,6 +9,7 @@ from task_planner_node.errors import MissionError
 from task_planner_node.language.source import Source
 
 MAX_DEPTH = 200
+MAX_NODES = 2_000_000
 DOMAIN_WORDS = frozenset({'defdomain', 'defproblem', 'make-problem', 'define'})
 DEFINITION_WORDS = frozenset({'operator', ':operator', ':op', ':method', ':-'})
 #: Lisp that stands around domains and problems in files for SHOP: never evaluated.
@@ -74,13 +75,14 @@ def first_word(node: Node) -> str:
 def read(source: Source) -> list[Node]:
     """Read all top-level expressions of ``source``; marks such as a quote are symbols, see unmarked().
 
-    Raises MissionError for parentheses, strings and block comments that do not end, and nesting beyond MAX_DEPTH.
+    Raises MissionError for parentheses, strings and block comments that do not end, nesting beyond MAX_DEPTH and more
+    than MAX_NODES words.
     """
     top: list[Node] = []
     stack: list[ListNode] = []
     definitions: list[ListNode] = []
     text = source.text
-    place = 0
+    place = count = 0
     while place < len(text):
         token = _TOKEN.match(text, place)
         if token is None:
@@ -89,6 +91,9 @@ def read(source: Source) -> list[Node]:
         kind = token.lastgroup
         if kind is None:
             continue
+        count += 1
+        if count > MAX_NODES:
+            raise _error(source, start, place, f'more than {MAX_NODES} words and parentheses')
         if kind == 'block':
             place = _end_of_comment(source, start)
         elif kind == 'open':

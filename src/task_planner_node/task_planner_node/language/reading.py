@@ -18,14 +18,19 @@ class Refused(Exception):
 
 
 class Reading:
-    """The reading of one text; ``errors`` and ``warnings`` are what has been found so far."""
+    """The reading of one text; ``errors`` and ``warnings`` are what has been found so far.
 
-    def __init__(self, source: Source, spelling: Spelling | None = None) -> None:
+    HDDL has no ``anonymous`` variables.
+    """
+
+    def __init__(
+        self, source: Source, spelling: Spelling | None = None, *, anonymous: bool = True
+    ) -> None:
         self.source = source
         self.spelling = spelling or Spelling()
         self.errors: list[Diagnostic] = []
         self.warnings: list[Diagnostic] = []
-        self._anonymous = 0
+        self._anonymous = 0 if anonymous else None
 
     def refuse(self, node: Node, message: str) -> Refused:
         """The error for ``node``, to be raised."""
@@ -38,7 +43,7 @@ class Reading:
 
     def variable(self, name: str) -> Variable:
         """The variable of that name; each anonymous one is another."""
-        if name.startswith('?_'):
+        if name.startswith('?_') and self._anonymous is not None:
             self._anonymous += 1
             return Variable(f'{name}#{self._anonymous}')
         return Variable(self.spelling.of(name))

@@ -21,6 +21,8 @@ from task_planner_node.language.walk import (
 
 def check_singletons(domain: Domain) -> Iterator[Diagnostic]:
     """One warning for each variable that a definition, or a branch of it, has once; ``?_`` variables may be."""
+    if domain.typed:
+        return
     source = domain.source
     for operator in domain.operators:
         yield from _once(source, operator.head, [_of_operator(operator)])

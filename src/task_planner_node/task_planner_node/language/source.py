@@ -9,7 +9,7 @@ from pathlib import Path
 
 from task_planner_node.errors import Diagnostic, MissionError, Severity
 
-MAX_BYTES = 1 << 20
+MAX_BYTES = 8 << 20
 EXCERPT = 60
 ALLOWED_CONTROLS = frozenset('\t\n\r\f\v')
 
