@@ -20,7 +20,7 @@ from task_planner_node.errors import Diagnostic, GeometryFailed, Severity
 from task_planner_node.mission import MissionText
 from task_planner_node.oracle import Advice, Answer, CandidateAdvice, Scope, Status, Token
 from task_planner_node.outcomes import Progress, Result
-from task_planner_node.search.partial_plan import Step
+from task_planner_node.search.plans import Step
 from task_planner_node.search.statistics import Statistics
 
 MAX_UINT32 = 2**32 - 1

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from task_planner_node.errors import Diagnostic
-from task_planner_node.language.model import Domain, Problem, show
+from task_planner_node.language.model import Atom, Domain, Problem, show
 from task_planner_node.language.suggestions import did_you_mean
 from task_planner_node.mission import locate
 from task_planner_node.oracle import Code
@@ -25,11 +25,11 @@ GEOMETRIC_WORD = re.compile(r'[^\s(),]+|[(),]')
 
 def explain_solution(search: Search) -> str:
     """How long the plan is."""
-    steps = search.best or ()
-    if not steps:
+    best = search.best
+    if best is None or not best.steps:
         return 'nothing has to be done: the plan is empty'
-    actions = '1 action' if len(steps) == 1 else f'{len(steps)} actions'
-    return f'a plan of {actions}, {search.best_length:.1f} m'
+    actions = '1 action' if len(best.steps) == 1 else f'{len(best.steps)} actions'
+    return f'a plan of {actions}, {best.length:.1f} m'
 
 
 def explain_failure(
@@ -64,7 +64,8 @@ def _labels(task: Task) -> list[str]:
 
 def _with_unknown_objects(dead_end: DeadEnd, domain: Domain, problem: Problem) -> DeadEnd:
     """Add which objects no fact speaks of, where a literal can only be true initially."""
-    made = {effect.name for operator in domain.operators for effect in operator.adds}
+    effects = [effect for operator in domain.operators for effect in operator.adds]
+    made = {effect.name for effect in effects if isinstance(effect, Atom)}
     made |= {axiom.head.name for axiom in domain.axioms}
     known = {label for fact in problem.facts for label in _labels((fact.name, *fact.args))}
     for name, text in LITERAL.findall(' '.join(dead_end.unmet)):

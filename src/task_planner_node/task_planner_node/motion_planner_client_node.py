@@ -89,6 +89,7 @@ class RemoteOracle:
             action=list(query.action),
             start=states_from_token(query.start),
             preconditions=query.preconditions,
+            behaviour=query.behaviour,
             alternative=query.alternative,
             world_revision=self.world_revision,
             seed=self.seed,

@@ -61,12 +61,16 @@ INVALID_CODES = frozenset(
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """Can these ground preconditions be met from ``start``?  ``action`` is for people and logs."""
+    """Can these ground preconditions be met from ``start``?  ``action`` is for people and logs.
+
+    ``behaviour`` holds constraints on the motion itself.
+    """
 
     action: tuple[str, ...]
     preconditions: str
     start: Token
     alternative: int
+    behaviour: str = ''
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from math import inf
 
+from task_planner_node.deep import on_deep_stack
 from task_planner_node.errors import (
     Cancelled,
     Diagnostic,
@@ -57,7 +59,9 @@ class Planner:
         """Plan a mission from the geometric state ``start``; never raises for what is in the texts."""
         diagnostics: tuple[Diagnostic, ...] = ()
         try:
-            outcome, explanation, diagnostics = self._plan(domain, problem, start)
+            outcome, explanation, diagnostics = on_deep_stack(
+                lambda: self._plan(domain, problem, start)
+            )
         except MissionError as error:
             outcome, explanation = Outcome.INVALID, str(error)
             diagnostics = error.diagnostics
@@ -76,9 +80,9 @@ class Planner:
         self._statistics.planning_time = time.monotonic() - self._began
         self._say('writing', force=True)
         search = self._search
-        steps = search.best or () if search and outcome == Outcome.SOLVED else ()
+        plans = tuple(search.plans.kept) if search and outcome == Outcome.SOLVED else ()
         details = '\n'.join([explanation, *(search.dead_ends.lines(1000) if search else [])])
-        return Result(outcome, explanation, diagnostics, steps, self._statistics, details)
+        return Result(outcome, explanation, diagnostics, plans, self._statistics, details)
 
     def _plan(
         self, domain_text: MissionText, problem_text: MissionText, start: Token
@@ -96,17 +100,18 @@ class Planner:
             self._options.max_alternatives,
             self._check,
         )
+        options = self._options
         search = self._search = Search(
             mission.domain,
+            mission.domain.beginning(problem),
             self._state,
             geometry,
             self._statistics,
-            Limits(self._options.max_depth, self._options.optimise, self._options.use_advice),
+            Limits(options.max_depth, options.optimise, options.use_advice, options.plans),
             self._check,
         )
-        network = mission.domain.initial_network(problem.tasks)
         self._say('searching', force=True)
-        search.run(network, start)
+        search.run(start)
         if search.best is not None:
             return Outcome.SOLVED, explain_solution(search), mission.warnings
         outcome = Outcome.NO_PLAN if search.proven else Outcome.LIMIT
@@ -152,7 +157,8 @@ class Planner:
             self._report(Progress(phase, elapsed=elapsed))
             return
         statistics = self._statistics
-        node = search.stack[-1] if search.stack else None
+        position = search.position
+        best = search.best
         self._report(
             Progress(
                 phase,
@@ -160,9 +166,9 @@ class Planner:
                 len(problem.goals),
                 statistics.requests,
                 statistics.backtracks + statistics.geometric_backtracks,
-                node.actions if node else 0,
-                node.length if node else 0.0,
-                search.best_length,
+                position[4] if position else 0,
+                position[1].length if position else 0.0,
+                best.length if best else inf,
                 elapsed,
             )
         )

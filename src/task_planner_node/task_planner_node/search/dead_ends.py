@@ -53,6 +53,12 @@ class DeadEnds:
         return describe(sorted(self.groups.values(), key=lambda group: -group.count), limit)
 
 
+def not_satisfied(literals: Iterable[str]) -> str:
+    """The reason when preconditions fail, each with its first literal that fails."""
+    known = [literal for literal in dict.fromkeys(literals) if literal]
+    return f'precondition not met: {" or ".join(known)}' if known else 'preconditions not met'
+
+
 def describe(groups: Iterable[DeadEnd], limit: int) -> list[str]:
     """One line for each of the first ``limit`` dead ends, and how many more there are."""
     found = list(groups)

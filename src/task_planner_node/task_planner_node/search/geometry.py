@@ -31,18 +31,37 @@ class Nogood:
     objects: tuple[str, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Request:
+    """What the motion planner is asked: the ground texts of an operator, from where the robots stand.
+
+    ``lineage`` is the attitude that was last assigned.
+    """
+
+    task: Task
+    text: str
+    behaviour: str
+    start: Token
+    lineage: Token
+
+    @property
+    def key(self) -> str:
+        """The texts as one; no text has a line break in it."""
+        return f'{self.text}\n{self.behaviour}' if self.behaviour else self.text
+
+
 class RequestRefused(Exception):
     """The motion planner answered a request for ``task`` with an error.
 
     ``column`` of ``text``, the ground preconditions, is where it found the error, from 1; 0 is nowhere.
     """
 
-    def __init__(self, task: Task, text: str, answer: Answer) -> None:
+    def __init__(self, request: Request, answer: Answer) -> None:
         super().__init__(answer.message)
-        self.task = task
+        self.task = request.task
         self.code = answer.code
         self.message = answer.message
-        self.text = text
+        self.text = request.text
         self.column = 0
         if answer.diagnostics:
             first = answer.diagnostics[0]
@@ -72,11 +91,15 @@ class Geometry:
         self._nogoods: dict[tuple[Scope, Token, str], Nogood] = {}
         self._ranks: dict[Token, dict[str, int]] = {}
 
-    def nogood(self, text: str, start: Token, lineage: Token) -> Nogood | None:
-        """Why ``text`` cannot be met from ``start``, when that is proven already."""
-        return self.lasting_nogood(text, lineage) or self._nogoods.get(
-            (Scope.THIS_START, start, text)
-        )
+    def nogood(self, request: Request) -> Nogood | None:
+        """Why a request cannot be met, when that is proven already."""
+        for text in {request.text: None, request.key: None}:
+            found = self.lasting_nogood(text, request.lineage) or self._nogoods.get(
+                (Scope.THIS_START, request.start, text)
+            )
+            if found is not None:
+                return found
+        return None
 
     def lasting_nogood(self, text: str, lineage: Token | None) -> Nogood | None:
         """Why ``text`` cannot be met, now and after any drive.
@@ -88,33 +111,39 @@ class Geometry:
             return everywhere
         return self._nogoods.get((Scope.CONNECTED_STARTS, lineage, text))
 
-    def alternatives(self, task: Task, text: str, start: Token, lineage: Token) -> Iterator[Answer]:
+    def alternatives(self, request: Request) -> Iterator[Answer]:
         """One answer after the other: FOUND ones, ended by the first of another status.
 
         An assigned attitude is the only one.  The generator also ends at the limit of alternatives.
         """
         for alternative in range(self._max_alternatives):
-            answer = self._ask(task, text, start, lineage, alternative)
+            answer = self._ask(request, alternative)
             yield answer
             if answer.status != Status.FOUND or answer.assigned:
                 return
 
-    def _ask(self, task: Task, text: str, start: Token, lineage: Token, alternative: int) -> Answer:
-        key = (text, start, alternative)
+    def _ask(self, request: Request, alternative: int) -> Answer:
+        key = (request.key, request.start, alternative)
         cached = self._answers.get(key)
         if cached is not None:
             return cached
         self._check_limits()
-        action = tuple(show(part) for part in task)
+        query = Query(
+            tuple(show(part) for part in request.task),
+            request.text,
+            request.start,
+            alternative,
+            request.behaviour,
+        )
         self._statistics.requests += 1
         if alternative:
             self._statistics.geometric_backtracks += 1
         began = time.monotonic()
-        answer = self._oracle.satisfy(Query(action, text, start, alternative))
+        answer = self._oracle.satisfy(query)
         self._statistics.exchanged(time.monotonic() - began, answer.time_spent)
         self._statistics.answers += 1
         if answer.status == Status.ERROR and answer.code != Code.NO_START:
-            raise RequestRefused(task, text, answer)
+            raise RequestRefused(request, answer)
         if answer.status == Status.FOUND:
             self._statistics.found += 1
         elif answer.status == Status.UNKNOWN:
@@ -122,21 +151,17 @@ class Geometry:
         else:
             self._statistics.impossible += 1
             if alternative == 0:
-                self._learn(text, answer.scope, start, lineage, answer.message, answer.objects)
+                self._learn(request, answer.scope, answer.message, answer.objects)
         self._answers[key] = answer
         return answer
 
-    def _learn(
-        self,
-        text: str,
-        scope: Scope,
-        start: Token,
-        lineage: Token,
-        reason: str,
-        objects: tuple[str, ...],
-    ) -> None:
-        place = {Scope.THIS_START: start, Scope.CONNECTED_STARTS: lineage, Scope.ANY_START: ()}
-        self._nogoods[(scope, place[scope], text)] = Nogood(reason, objects)
+    def _learn(self, request: Request, scope: Scope, reason: str, objects: tuple[str, ...]) -> None:
+        place = {
+            Scope.THIS_START: request.start,
+            Scope.CONNECTED_STARTS: request.lineage,
+            Scope.ANY_START: (),
+        }
+        self._nogoods[(scope, place[scope], request.key)] = Nogood(reason, objects)
         if scope != Scope.THIS_START:
             self.version += 1
 
@@ -158,10 +183,9 @@ class Geometry:
         self._statistics.exchanged(time.monotonic() - began, advice.time_spent)
         self._statistics.advices += 1
         for text, candidate in zip(wanted, advice.candidates, strict=False):
-            if candidate.impossible and self.nogood(text, start, lineage) is None:
-                self._learn(
-                    text, candidate.scope, start, lineage, candidate.message, candidate.objects
-                )
+            request = Request((), text, '', start, lineage)
+            if candidate.impossible and self.nogood(request) is None:
+                self._learn(request, candidate.scope, candidate.message, candidate.objects)
         order = [index for index in advice.order if 0 <= index < len(wanted)]
         known.clear()
         known.update({text: len(wanted) for text in wanted})
