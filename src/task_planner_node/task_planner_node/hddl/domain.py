@@ -6,18 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from task_planner_node.errors import MissionError
-from task_planner_node.hddl.actions import (
-    ACTION_FIELDS,
-    fields_of,
-    name_of,
-    parameters_of,
-    read_action,
-    read_derived,
-)
-from task_planner_node.hddl.formulas import Vocabulary, read_formula
 from task_planner_node.hddl.networks import TASK_WORDS, read_network
-from task_planner_node.hddl.ordering import ordered
-from task_planner_node.hddl.types import OBJECT, Passed, Typed, Types, read_typed
 from task_planner_node.language.model import (
     Atom,
     Axiom,
@@ -29,6 +18,17 @@ from task_planner_node.language.model import (
     TaskNetwork,
     Variable,
 )
+from task_planner_node.language.pddl.actions import (
+    ACTION_FIELDS,
+    fields_of,
+    name_of,
+    parameters_of,
+    read_action,
+    read_derived,
+)
+from task_planner_node.language.pddl.formulas import Vocabulary, read_formula
+from task_planner_node.language.pddl.ordering import ordered
+from task_planner_node.language.pddl.types import OBJECT, Passed, Typed, Types, read_typed
 from task_planner_node.language.reader import ListNode, first_word
 from task_planner_node.language.reading import Reading, Refused, children_of
 from task_planner_node.language.suggestions import did_you_mean

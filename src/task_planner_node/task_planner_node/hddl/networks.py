@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from task_planner_node.hddl.formulas import Vocabulary
 from task_planner_node.language.model import Atom, Ordered, Partial, TaskNetwork, Unordered
+from task_planner_node.language.pddl.formulas import Vocabulary
 from task_planner_node.language.reader import ListNode, Node, Symbol, first_word
 from task_planner_node.language.reading import Reading, children_of, is_nil
 from task_planner_node.language.suggestions import did_you_mean

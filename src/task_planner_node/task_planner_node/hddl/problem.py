@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from task_planner_node.errors import MissionError
-from task_planner_node.hddl.actions import fields_of, name_of, parameters_of
 from task_planner_node.hddl.domain import HddlDomain, check_declared
-from task_planner_node.hddl.formulas import COMPARISONS, Vocabulary, read_formula
 from task_planner_node.hddl.networks import TASK_WORDS, read_network
-from task_planner_node.hddl.ordering import ordered
-from task_planner_node.hddl.types import Typed, read_typed
 from task_planner_node.language.model import NOTHING, Atom, Condition, Ordered, Problem, TaskNetwork
+from task_planner_node.language.pddl.actions import fields_of, name_of, parameters_of
+from task_planner_node.language.pddl.formulas import COMPARISONS, Vocabulary, read_formula
+from task_planner_node.language.pddl.ordering import ordered
+from task_planner_node.language.pddl.types import Typed, read_typed
 from task_planner_node.language.reader import ListNode, Node, Symbol, first_word
 from task_planner_node.language.reading import Reading, Refused
 from task_planner_node.language.suggestions import did_you_mean

@@ -23,8 +23,9 @@ from task_planner_node.language.model import (
     Stated,
     Variable,
 )
+from task_planner_node.language.pddl.types import OBJECT, Types, read_typed
 from task_planner_node.language.reader import ListNode, Node, Symbol, first_word
-from task_planner_node.language.reading import Reading, is_nil, is_variable
+from task_planner_node.language.reading import Reading, children_of, is_nil, is_variable
 from task_planner_node.language.terms import read_atom, read_expression, read_function, read_term
 
 
@@ -81,20 +82,33 @@ def _imply(reading: Reading, node: ListNode) -> Condition:
 
 
 def _forall(reading: Reading, node: ListNode) -> Condition:
-    _check(reading, node, 3, '(forall (?variable ...) domain condition)')
-    variables = read_variables(reading, node.children[1])
-    parts = [read_condition(reading, child) for child in node.children[2:]]
-    return Forall(variables, parts[0], parts[1], node)
+    variables, domain, condition = _quantified(reading, node)
+    return Forall(variables, domain, condition, node)
 
 
 def _exists(reading: Reading, node: ListNode) -> Condition:
-    if len(node.children) == 3:
+    if len(node.children) == 3 and all(is_variable(n) for n in children_of(node.children[1])):
         variables = read_variables(reading, node.children[1])
         return Exists(variables, read_condition(reading, node.children[2]), And(()), node)
-    _check(reading, node, 3, '(exists (?variable ...) domain condition)')
+    variables, domain, condition = _quantified(reading, node)
+    return Exists(variables, domain, condition, node)
+
+
+def _quantified(
+    reading: Reading, node: ListNode
+) -> tuple[tuple[Variable, ...], Condition, Condition]:
+    """SHOP's ``(?x ...) domain condition``, or PDDL's ``(?x - type ...) condition``."""
+    if len(node.children) == 3:
+        typed = read_typed(reading, children_of(node.children[1]), variables=True)
+        if typed and all(each.type != (OBJECT,) for each in typed):
+            types = Types()
+            domain = And(tuple(types.condition(each) for each in typed))
+            variables = tuple(each.variable for each in typed)
+            return variables, domain, read_condition(reading, node.children[2])
+    _check(reading, node, 3, f'({first_word(node)} (?variable ...) domain condition)')
     variables = read_variables(reading, node.children[1])
     parts = [read_condition(reading, child) for child in node.children[2:]]
-    return Exists(variables, parts[0], parts[1], node)
+    return variables, parts[0], parts[1]
 
 
 def read_variables(reading: Reading, node: Node) -> tuple[Variable, ...]:

@@ -7,6 +7,8 @@ from task_planner_node.language.forms import read_forms
 from task_planner_node.language.methods import read_axiom, read_method
 from task_planner_node.language.model import Axiom, Domain, Method, Operator
 from task_planner_node.language.operators import read_op, read_paper_operator, read_shop_operator
+from task_planner_node.language.pddl.shop import WORDS as PDDL_WORDS
+from task_planner_node.language.pddl.shop import ShopPddl
 from task_planner_node.language.reader import ListNode, Node, Symbol, first_word, unmarked
 from task_planner_node.language.reading import Reading, Refused, children_of, elements
 from task_planner_node.language.source import Source
@@ -14,7 +16,10 @@ from task_planner_node.language.spelling import Spelling
 from task_planner_node.language.suggestions import did_you_mean
 from task_planner_node.language.terms import read_name
 
-FORMS = ('operator', ':operator', ':op', ':method', ':-', 'defdomain', 'defproblem')
+FORMS = (
+    *('operator', ':operator', ':op', ':method', ':-', 'defdomain', 'defproblem', ':pddl-method'),
+    *sorted(PDDL_WORDS),
+)
 OTHER_WORDS = frozenset({'defdomain', 'defproblem', 'make-problem'})
 
 
@@ -64,18 +69,22 @@ def _read_definitions(
     operators: list[Operator] = []
     methods: list[Method] = []
     axioms: list[Axiom] = []
-    for node in definitions:
+    pddl = ShopPddl(reading)
+    # Types first: actions before them may use them.
+    for node in sorted(definitions, key=lambda each: first_word(each) != ':types'):
         word = first_word(node)
         try:
             if not isinstance(node, ListNode) or word not in FORMS:
                 raise reading.refuse(node, _unknown_form(word))
-            if word == 'operator':
+            if word in PDDL_WORDS:
+                pddl.read(_plain(reading, node))
+            elif word == 'operator':
                 operators.append(read_paper_operator(reading, node))
             elif word == ':op':
                 operators.append(read_op(reading, node))
             elif word == ':operator':
                 operators.append(read_shop_operator(reading, _plain(reading, node)))
-            elif word == ':method':
+            elif word in (':method', ':pddl-method'):
                 methods.append(read_method(reading, _plain(reading, node)))
             else:
                 axioms.append(read_axiom(reading, _plain(reading, node)))
@@ -83,7 +92,7 @@ def _read_definitions(
             reading.errors.append(refused.diagnostic)
         except MissionError as error:
             reading.errors.extend(error.diagnostics)
-    return operators, methods, axioms
+    return operators + pddl.operators, methods, axioms + pddl.axioms
 
 
 def _plain(reading: Reading, node: ListNode) -> ListNode:
@@ -91,6 +100,8 @@ def _plain(reading: Reading, node: ListNode) -> ListNode:
 
 
 def _unknown_form(word: str) -> str:
+    if word == ':include':
+        return 'a domain is one text: put what is included into it'
     if not word:
         return 'expected a definition: (Operator ...), (:operator ...), (:method ...) or (:- ...)'
     return f'unknown form ({word} ...)' + did_you_mean(word, FORMS)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from task_planner_node.hddl.types import Typed, Types, read_typed
 from task_planner_node.language.model import (
     NOTHING,
     And,
@@ -22,6 +21,7 @@ from task_planner_node.language.model import (
     Term,
     Variable,
 )
+from task_planner_node.language.pddl.types import Typed, Types, read_typed
 from task_planner_node.language.reader import ListNode, Node, Symbol, first_word
 from task_planner_node.language.reading import Reading, children_of, is_nil
 from task_planner_node.language.suggestions import did_you_mean

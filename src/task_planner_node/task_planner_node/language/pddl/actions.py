@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from task_planner_node.hddl.formulas import (
+from task_planner_node.language.model import NOTHING, Atom, Axiom, Condition, Operator
+from task_planner_node.language.pddl.formulas import (
     Vocabulary,
     read_effects,
     read_formula,
     read_variables,
 )
-from task_planner_node.hddl.ordering import ordered
-from task_planner_node.hddl.types import Passed, Typed
-from task_planner_node.language.model import NOTHING, Atom, Axiom, Condition, Operator
+from task_planner_node.language.pddl.ordering import ordered
+from task_planner_node.language.pddl.types import Passed, Typed
 from task_planner_node.language.reader import ListNode, Node, Symbol
 from task_planner_node.language.reading import Reading
 from task_planner_node.language.suggestions import did_you_mean
@@ -55,11 +55,12 @@ def parameters_of(reading: Reading, fields: dict[str, Node], vocabulary: Vocabul
 
 
 def read_action(
-    reading: Reading, node: ListNode, vocabulary: Vocabulary, passed: Passed
+    reading: Reading, node: ListNode, vocabulary: Vocabulary, passed: Passed | None
 ) -> Operator:
     """Read ``(:action name :parameters (...) :precondition formula :effect effect)``: the operator ``!name``.
 
-    Parameters whose type follows from what is ``passed`` are not tested.
+    Parameters whose type follows from what is ``passed`` are not tested.  In SHOP's domains nothing is known of
+    that (None), and types are tested last, since arguments may be unbound.
     """
     name = name_of(reading, node, 'the action')
     fields = fields_of(reading, node, ACTION_FIELDS)
@@ -68,14 +69,16 @@ def read_action(
     if ':precondition' in fields:
         formula = read_formula(reading, fields[':precondition'], vocabulary)
     effects = read_effects(reading, fields.get(':effect', ListNode([], 0, 0)), vocabulary)
-    callers = passed.get(f'!{name}', [])
+    callers = [] if passed is None else passed.get(f'!{name}', [])
     checks = [
         vocabulary.types.condition(each)
         for place, each in enumerate(parameters)
         if not vocabulary.types.follows(each, callers[place : place + 1])
     ]
+    formulas = [formula, *effects.lookups]
+    formulas = [*formulas, *checks] if passed is None else [*checks, *formulas]
     bound = [each.name for each in parameters]
-    condition = ordered(parameters, bound, [*checks, formula, *effects.lookups], vocabulary)
+    condition = ordered(parameters, bound, formulas, vocabulary)
     head = Atom(f'!{name}', tuple(each.variable for each in parameters), node)
     cost = 1.0 if effects.cost is None else effects.cost
     return Operator(head, condition, None, tuple(effects.deletes), tuple(effects.adds), cost)

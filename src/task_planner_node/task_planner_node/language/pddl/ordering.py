@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from task_planner_node.hddl.formulas import Vocabulary
-from task_planner_node.hddl.types import Type, Typed
 from task_planner_node.language.model import And, Atom, Condition, Exists, Forall
+from task_planner_node.language.pddl.formulas import Vocabulary
+from task_planner_node.language.pddl.types import Type, Typed
 from task_planner_node.language.walk import parts_of, variables_in_condition, variables_of
 
 
