@@ -22,6 +22,7 @@ from task_planner_node.language.pddl.actions import (
     ACTION_FIELDS,
     fields_of,
     name_of,
+    operator_name,
     parameters_of,
     read_action,
     read_derived,
@@ -147,7 +148,10 @@ def _read_definitions(sections: _Sections, vocabulary: Vocabulary, name: str) ->
     sections.attempt(
         lambda node: drafts.append(_draft(reading, node, vocabulary, primitive)), ':method'
     )
-    typed = {**tasks, **{f'!{action}': parameters for action, parameters in actions.items()}}
+    typed = {
+        **tasks,
+        **{operator_name(reading, action): parameters for action, parameters in actions.items()},
+    }
     passed = _passed(drafts, typed, vocabulary)
     operators: list[Operator] = []
     axioms: list[Axiom] = []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from task_planner_node.language.model import Atom, Ordered, Partial, TaskNetwork, Unordered
+from task_planner_node.language.pddl.actions import operator_name
 from task_planner_node.language.pddl.formulas import Vocabulary
 from task_planner_node.language.reader import ListNode, Node, Symbol, first_word
 from task_planner_node.language.reading import Reading, children_of, is_nil
@@ -39,7 +40,7 @@ def read_network(
             names[name] = len(tasks)
         vocabulary.check_objects(reading, task)
         if task.name in primitive:
-            task = Atom(f'!{task.name}', task.args, task.node)
+            task = Atom(operator_name(reading, task.name), task.args, task.node)
         tasks.append(task)
     if len(tasks) > MAX_TASKS:
         raise reading.refuse(fields[words[0]], f'more than {MAX_TASKS} subtasks')

@@ -66,22 +66,39 @@ def _check_tasks(domain: Domain, problem: Problem) -> Iterator[Diagnostic]:
         arities.setdefault(head.name, set()).add(len(head.args))
     for name, count in domain.declared:
         arities.setdefault(name, set()).add(count)
-    used = [
-        (domain.source, task)
+    intact = {
+        method.head.name
         for method in domain.methods
         for branch in method.branches
-        for task in tasks_of(branch.tasks)
-    ]
-    used += [(problem.source, task) for task in tasks_of(problem.tasks)]
-    for source, task in used:
-        if task.name not in arities:
-            kind = 'operator' if task.name.startswith('!') else 'method'
-            message = f'no {kind} is defined for {show(task)}{did_you_mean(task.name, arities)}'
-            yield _at(source, task.node, message)
-        elif len(task.args) not in arities[task.name]:
-            wanted = ' or '.join(str(count) for count in sorted(arities[task.name]))
-            message = f'{task.name} takes {wanted} arguments, not {len(task.args)}'
-            yield _at(source, task.node, message)
+        if not any(_fault(task, arities)[0] for task in tasks_of(branch.tasks))
+    }
+    for method in domain.methods:
+        for branch in method.branches:
+            for task in tasks_of(branch.tasks):
+                message, hint = _fault(task, arities)
+                if message and (hint or method.head.name not in intact):
+                    yield _at(domain.source, task.node, message + hint)
+                elif message:
+                    yield _warning(domain.source, task, f'{message}: this branch leads nowhere')
+    for task in tasks_of(problem.tasks):
+        message, hint = _fault(task, arities)
+        if message:
+            yield _at(problem.source, task.node, message + hint)
+
+
+def _fault(task: Atom, arities: dict[str, set[int]]) -> tuple[str, str]:
+    """What is wrong with a task, and which one may have been meant; empty if nothing is.
+
+    In a method it is an error if another task was probably meant, or if the method's task cannot be done
+    without it.  Otherwise it makes one branch useless.
+    """
+    if task.name not in arities:
+        kind = 'operator' if task.name.startswith('!') else 'method'
+        return f'no {kind} is defined for {show(task)}', did_you_mean(task.name, arities)
+    if len(task.args) not in arities[task.name]:
+        wanted = ' or '.join(str(count) for count in sorted(arities[task.name]))
+        return f'{task.name} takes {wanted} arguments, not {len(task.args)}', ''
+    return '', ''
 
 
 def _conditions(domain: Domain) -> Iterator[Condition]:

@@ -54,6 +54,11 @@ def parameters_of(reading: Reading, fields: dict[str, Node], vocabulary: Vocabul
     return read_variables(reading, fields[':parameters'], vocabulary.types)
 
 
+def operator_name(reading: Reading, action: str) -> str:
+    """The name of the operator for an action."""
+    return reading.spelling.of(f'!{action}')
+
+
 def read_action(
     reading: Reading, node: ListNode, vocabulary: Vocabulary, passed: Passed | None
 ) -> Operator:
@@ -69,7 +74,7 @@ def read_action(
     if ':precondition' in fields:
         formula = read_formula(reading, fields[':precondition'], vocabulary)
     effects = read_effects(reading, fields.get(':effect', ListNode([], 0, 0)), vocabulary)
-    callers = [] if passed is None else passed.get(f'!{name}', [])
+    callers = [] if passed is None else passed.get(operator_name(reading, name), [])
     checks = [
         vocabulary.types.condition(each)
         for place, each in enumerate(parameters)
@@ -79,7 +84,7 @@ def read_action(
     formulas = [*formulas, *checks] if passed is None else [*checks, *formulas]
     bound = [each.name for each in parameters]
     condition = ordered(parameters, bound, formulas, vocabulary)
-    head = Atom(f'!{name}', tuple(each.variable for each in parameters), node)
+    head = Atom(operator_name(reading, name), tuple(each.variable for each in parameters), node)
     cost = 1.0 if effects.cost is None else effects.cost
     return Operator(head, condition, None, tuple(effects.deletes), tuple(effects.adds), cost)
 
