@@ -283,14 +283,12 @@ BEHAVIOUR = '(slow ?r)'
 REFERENCE = '(end ?r)'
 
 
-@pytest.mark.parametrize(
-    'text',
-    [
-        f'(Operator (!o ?r) ((p ?r)) {GEOMETRIC}\n {BEHAVIOUR} ((a)(not (d))) {REFERENCE})',
-        f'(:op (!o ?r) :precond (p ?r) :delete ((d)) :add ((a)) :geometric {GEOMETRIC}\n'
-        + f' :behaviour {BEHAVIOUR} :geometric-effects {REFERENCE})',
-    ],
-)
+PAPER = f'(Operator (!o ?r) ((p ?r)) {GEOMETRIC}\n {BEHAVIOUR} ((a)(not (d))) {REFERENCE})'
+SHOP = f"""(:op (!o ?r) :precond (p ?r) :delete ((d)) :add ((a)) :geometric {GEOMETRIC}
+ :behaviour {BEHAVIOUR} :geometric-effects {REFERENCE})"""
+
+
+@pytest.mark.parametrize('text', [PAPER, SHOP])
 def test_the_six_fields_of_definition_1(text: str) -> None:
     found = operator(text)
     assert [written(effect) for effect in found.deletes] == ['(d)']

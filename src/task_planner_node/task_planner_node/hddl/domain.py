@@ -66,6 +66,8 @@ class _Sections:
     def attempt(self, read: Callable[[ListNode], None], word: str) -> None:
         """Call ``read`` with each definition, and collect the errors."""
         for node in self.each(word):
+            if self.reading.hopeless:
+                break
             try:
                 read(node)
             except Refused as refused:
@@ -77,6 +79,8 @@ def read_domain(reading: Reading, node: ListNode) -> HddlDomain:
     sections = _Sections(reading)
     for child in node.children[1:]:
         word = first_word(child)
+        if reading.hopeless:
+            break
         if word not in SECTIONS or not isinstance(child, ListNode):
             text = reading.source.excerpt(child.start, child.end)
             message = f'{text} is no section of a domain{did_you_mean(word, SECTIONS)}'

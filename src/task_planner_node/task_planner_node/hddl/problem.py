@@ -111,6 +111,8 @@ class _Reader:
 
     def _read_init(self, node: ListNode) -> None:
         for child in node.children[1:]:
+            if self._reading.hopeless:
+                break
             try:
                 self._read_fact(child)
             except Refused as refused:

@@ -73,6 +73,8 @@ def _read_definitions(
     # Types first: actions before them may use them.
     for node in sorted(definitions, key=lambda each: first_word(each) != ':types'):
         word = first_word(node)
+        if reading.hopeless:
+            break
         try:
             if not isinstance(node, ListNode) or word not in FORMS:
                 raise reading.refuse(node, _unknown_form(word))

@@ -134,6 +134,8 @@ def _read_defproblem(reading: Reading, node: ListNode) -> Problem:
     facts: list[Atom] = []
     try:
         for child in elements(reading, state, 'the initial state'):
+            if reading.hopeless:
+                break
             try:
                 facts.append(_ground(reading, read_atom(reading, child, 'a fact')))
             except Refused as refused:

@@ -8,6 +8,9 @@ from task_planner_node.language.reader import ListNode, Node, Symbol
 from task_planner_node.language.source import Source
 from task_planner_node.language.spelling import Spelling
 
+#: Errors beyond these are not looked for: nobody reads them.
+MOST_ERRORS = 100
+
 
 class Refused(Exception):
     """A form that is not in the language; the diagnostic says where and why."""
@@ -31,6 +34,11 @@ class Reading:
         self.errors: list[Diagnostic] = []
         self.warnings: list[Diagnostic] = []
         self._anonymous = 0 if anonymous else None
+
+    @property
+    def hopeless(self) -> bool:
+        """Whether so much is wrong that reading on helps nobody."""
+        return len(self.errors) >= MOST_ERRORS
 
     def refuse(self, node: Node, message: str) -> Refused:
         """The error for ``node``, to be raised."""
