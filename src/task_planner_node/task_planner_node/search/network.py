@@ -26,25 +26,25 @@ class Immediate(tuple[Any, ...]):
 class Parallel:
     """At least two networks, none of them empty, without an order among them.
 
-    With ``before`` a branch waits for those with the labels that it names, as long as they are there.
+    With ``before`` a branch waits for those with the labels that it names, as long as they are there.  ``urgent``
+    counts the branches that an immediate task may come next in, if none waited.
     """
 
-    __slots__ = ('before', 'branches', 'key', 'labels')
+    __slots__ = ('before', 'branches', 'key', 'labels', 'urgent')
 
     def __init__(
         self,
         branches: tuple[Any, ...],
+        key: int,
+        urgent: int,
         labels: tuple[int, ...] = (),
         before: Before | None = None,
     ) -> None:
         self.branches = branches
+        self.key = key
+        self.urgent = urgent
         self.labels = labels
         self.before = before
-        keys = [branch[4] for branch in branches]
-        if before is None:
-            self.key = sum(keys)
-        else:
-            self.key = sum(hash(pair) for pair in zip(labels, keys, strict=True))
 
     def open(self) -> Sequence[int]:
         """The indices of the branches that wait for none."""
@@ -66,29 +66,40 @@ def cell(first: Task | Parallel, rest: Network, parent: object = None, place: in
     return (first, rest, parent, place, hash((key, rest[4] if rest is not None else 0)))
 
 
+def _urgent(branch: Cell) -> bool:
+    first = branch[0]
+    return first.urgent > 0 if isinstance(first, Parallel) else type(first) is Immediate
+
+
 def parallel(branches: Sequence[Network], rest: Network) -> Network:
     """The branches in any interleaving, then the rest; nested ones are flattened."""
-    flat: list[Network] = []
+    flat: list[Cell] = []
     for branch in branches:
         if branch is None:
             continue
-        first = branch[0]
-        if isinstance(first, Parallel) and branch[1] is None and first.before is None:
-            flat.extend(first.branches)
-        else:
+        if _is_flat(branch):
             flat.append(branch)
+        else:
+            flat.extend(branch[0].branches)
     if not flat:
         return rest
     if len(flat) == 1:
         return sequence(flat[0], rest)
-    return cell(Parallel(tuple(flat)), rest)
+    urgent = sum(map(_urgent, flat))
+    return cell(Parallel(tuple(flat), sum([branch[4] for branch in flat]), urgent), rest)
+
+
+def _is_flat(branch: Cell) -> bool:
+    """Whether a branch is not just branches that belong among its siblings."""
+    first = branch[0]
+    return not isinstance(first, Parallel) or branch[1] is not None or first.before is not None
 
 
 def constrained(
     branches: Sequence[Network], labels: Sequence[int], before: Before, rest: Network
 ) -> Network:
     """The branches in any interleaving that ``before`` allows, then the rest."""
-    left = [
+    left: list[tuple[int, Cell]] = [
         (label, branch)
         for label, branch in zip(labels, branches, strict=True)
         if branch is not None
@@ -96,7 +107,11 @@ def constrained(
     here = {label for label, _ in left}
     if all(here.isdisjoint(before[label]) for label in here):
         return parallel([branch for _, branch in left], rest)
-    return cell(Parallel(tuple(b for _, b in left), tuple(i for i, _ in left), before), rest)
+    left_branches = tuple([branch for _, branch in left])
+    left_labels = tuple([label for label, _ in left])
+    key = sum([hash((label, branch[4])) for label, branch in left])
+    urgent = sum(map(_urgent, left_branches))
+    return cell(Parallel(left_branches, key, urgent, left_labels, before), rest)
 
 
 def sequence(network: Network, rest: Network) -> Network:
@@ -147,14 +162,25 @@ def replace(network: Network, path: Path, branch: Network, to_front: bool) -> Ne
         part = first.branches[index]
     for first, index, rest in reversed(outer):
         branches, labels = first.branches, first.labels
-        others = (*branches[:index], *branches[index + 1 :])
+        before, after = branches[:index], branches[index + 1 :]
         if first.before is not None:
             order = (labels[index], *labels[:index], *labels[index + 1 :])
-            branch = constrained((branch, *others), order, first.before, rest)
-        elif to_front:
-            branch = parallel((branch, *others), rest)
+            branch = constrained((branch, *before, *after), order, first.before, rest)
+            continue
+        if branch is None and len(branches) > 2:
+            siblings = before + after
+        elif branch is not None and _is_flat(branch):
+            siblings = (branch, *before, *after) if to_front else (*before, branch, *after)
         else:
-            branch = parallel((*branches[:index], branch, *branches[index + 1 :]), rest)
+            fresh = (branch, *before, *after) if to_front else (*before, branch, *after)
+            branch = parallel(fresh, rest)
+            continue
+        # The sums change by what was replaced.
+        old = branches[index]
+        key, urgent = first.key - old[4], first.urgent - _urgent(old)
+        if branch is not None:
+            key, urgent = key + branch[4], urgent + _urgent(branch)
+        branch = cell(Parallel(siblings, key, urgent), rest)
     return branch
 
 

@@ -16,6 +16,7 @@ from task_planner_node.search.methods import CompiledBranch, CompiledMethod
 from task_planner_node.search.motions import Motions
 from task_planner_node.search.network import (
     Cell,
+    Immediate,
     Network,
     Parallel,
     Path,
@@ -78,7 +79,6 @@ class Ways:
         self._log = search.log
         self._motions = Motions(search, state, geometry)
         self._loosely = Loosely(domain, state)
-        self._lazy = not (domain.geometric or domain.immediate)
 
     def beginnings(self, where: Whereabouts) -> Moves:
         """The networks of the problem."""
@@ -93,22 +93,26 @@ class Ways:
 
     def candidates(self, position: Position) -> Way:
         """The tasks that may come next, in the order to try."""
-        if self._lazy:
-            return self._in_order(position)
-        return self._advised(position)
+        if self._domain.geometric:
+            return self._advised(position)
+        network: Any = position[0]
+        front, path = _front(network)
+        chosen = _choosing(position, Chosen(front, path, focus=True))
+        if not isinstance(front[0], Immediate):
+            return self._in_order(position, chosen, first=not network[0].urgent)
+        return chosen if network[0].urgent == 1 else self._in_order(position, chosen, first=True)
 
-    def _in_order(self, position: Position) -> Moves:
-        network = position[0]
-        cell, path = _front(network)
-        yield _choosing(position, Chosen(cell, path, focus=True))
-        for cell, path in first_cells(network)[1:]:
+    def _in_order(self, position: Position, chosen: Position, first: bool) -> Moves:
+        """All candidates, ``chosen`` before the others if it is the ``first``."""
+        network: Any = position[0]
+        if first:
+            yield chosen
+        for cell, path in urgent(first_cells(network))[first:]:
             yield _choosing(position, Chosen(cell, path, focus=True))
 
     def _advised(self, position: Position) -> Moves:
         network, where, focused = position[0], position[1], position[5]
-        candidates = first_cells(network)
-        if self._domain.immediate:
-            candidates = urgent(candidates)
+        candidates = urgent(first_cells(network))
         for cell, path in candidates:
             task = cell[0]
             if task[0] in self._domain.operators:
