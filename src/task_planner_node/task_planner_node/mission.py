@@ -14,6 +14,7 @@ from task_planner_node.language import (
     load_source,
     read_domain,
     read_problem,
+    split_name,
 )
 from task_planner_node.language.model import Domain, Problem
 from task_planner_node.language.reader import ListNode, Node, Symbol, first_word
@@ -27,12 +28,11 @@ T = TypeVar('T')
 class MissionText:
     """Where a domain or a problem comes from: its text, or the file at ``path`` when that is empty.
 
-    ``name`` chooses one of several problems in it.
+    One of several problems in it is chosen by its name behind the path: ``problems.lisp#first``.
     """
 
     path: str = ''
     text: str = ''
-    name: str = ''
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,13 +51,14 @@ def read_mission(domain: MissionText, problem: MissionText) -> tuple[Domain, Pro
     """
     of_domain: list[Diagnostic] = []
     of_problem: list[Diagnostic] = []
+    path, chosen = split_name(problem.path)
     text = _attempt(of_domain, lambda: load_source('domain', domain.path, domain.text))
-    task = _attempt(of_problem, lambda: load_source('problem', problem.path, problem.text))
+    task = _attempt(of_problem, lambda: load_source('problem', path, problem.text))
     if text is not None and task is not None:
         if is_hddl(text) or is_hddl(task):
             return read_hddl(text, task)
         spelling = Spelling()
-        read_two = _attempt(of_problem, lambda: read_problem(task, spelling, problem.name))
+        read_two = _attempt(of_problem, lambda: read_problem(task, spelling, chosen))
         name = read_two.domain_name if read_two else ''
         read_one = _attempt(of_domain, lambda: read_domain(text, spelling, name))
         if read_one is not None and read_two is not None:

@@ -32,6 +32,7 @@ from task_planner_node.conversions import (
     result_to_message,
 )
 from task_planner_node.errors import Diagnostic
+from task_planner_node.language.functions import PluginError, load_plugins
 from task_planner_node.motion_planner_client_node import MotionPlannerClient, RemoteOracle
 from task_planner_node.outcomes import Options, Outcome, Progress, Result
 from task_planner_node.parameters import (
@@ -214,8 +215,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _serve(context: Context, stop: threading.Event) -> int:
     try:
+        load_plugins()
         node = TaskPlannerNode(context)
-    except ValueError as error:
+    except (PluginError, ValueError) as error:
         print(f'{NAME}: {error}', file=sys.stderr)
         return 2
     executor = MultiThreadedExecutor(num_threads=4, context=context)

@@ -29,7 +29,8 @@ def solve(no_motion_planner: Oracle) -> Callable[[Path, Path, str], Actions | No
 
     def run(domain: Path, problem: Path, name: str = '') -> Actions | None:
         planner = Planner(no_motion_planner, Options())
-        result = planner.plan(MissionText(str(domain)), MissionText(str(problem), name=name))
+        chosen = f'{problem}#{name}' if name else str(problem)
+        result = planner.plan(MissionText(str(domain)), MissionText(chosen))
         assert result.outcome in (Outcome.SOLVED, Outcome.NO_PLAN), result.explanation
         if result.outcome == Outcome.NO_PLAN:
             return None

@@ -3,7 +3,7 @@
 from task_planner_node.language.checks import check_mission
 from task_planner_node.language.domain import read_domain
 from task_planner_node.language.problem import problem_names, read_problem
-from task_planner_node.language.source import Source, load_source
+from task_planner_node.language.source import Source, load_source, split_name
 from task_planner_node.language.spelling import Spelling
 
 __all__ = [
@@ -14,4 +14,5 @@ __all__ = [
     'problem_names',
     'read_domain',
     'read_problem',
+    'split_name',
 ]

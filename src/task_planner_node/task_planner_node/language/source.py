@@ -43,6 +43,16 @@ class Source:
         return Diagnostic(message, line, column, self.excerpt(start, end), self.name, severity)
 
 
+def split_name(path: str) -> tuple[str, str]:
+    """The path of a file and the name behind its ``#``, empty without one or if a file has the whole name."""
+    file, mark, name = path.rpartition('#')
+    try:
+        whole = not mark or Path(path).exists()
+    except (OSError, ValueError):
+        whole = True
+    return (path, '') if whole else (file, name)
+
+
 def load_source(what: str, path: str, text: str = '') -> Source:
     """Take ``text``, or the file at ``path`` when the text is empty.
 
