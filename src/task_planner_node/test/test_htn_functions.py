@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 from functools import cmp_to_key
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -210,3 +211,11 @@ def test_the_library_has_no_faults() -> None:
         assert function.name == name
         assert not fault_of(function)
         assert function.description
+
+
+def test_every_function_is_in_the_documents() -> None:
+    text = (Path(__file__).parents[3] / 'docs' / 'htn.md').read_text()
+    for name in (*FUNCTIONS, *FORMS):
+        assert f'`{name}`' in text, name
+    for name in HIGHER:
+        assert f'`({name} ' in text, name

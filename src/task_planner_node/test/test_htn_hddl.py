@@ -255,7 +255,9 @@ def test_what_is_wrong_in_a_problem_has_its_place_and_all_is_told() -> None:
     with pytest.raises(MissionError, match='has no problem'):
         read(problem=DOMAIN)
     assert is_hddl(Source('p', PROBLEM))
-    assert not is_hddl(Source('p', '(define'))
+    assert is_hddl(Source('p', '\n; (a)\n ; b\n( DEFINE\n(domain d))'))
+    assert not is_hddl(Source('p', '(defdomain d ())'))
+    assert not is_hddl(Source('p', '; (define (domain d))'))
 
 
 def test_another_domains_name_is_no_more_than_a_warning() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -65,3 +66,14 @@ def test_what_is_no_function_is_refused_in_one_sentence(
     assert words in message
     assert 'mine (plugged:FUNCTIONS)' in message
     assert len(message.splitlines()) == 1
+
+
+def test_the_example_in_the_documents_works(tmp_path: Path) -> None:
+    text = (ROOM.parents[1] / 'docs' / 'htn.md').read_text()
+    (source,) = re.findall(r'```python\n(.*?)```', text, re.DOTALL)
+    use = """
+from task_planner_node.language.functions import FUNCTIONS, load_plugins
+load_plugins()
+print(FUNCTIONS['bearing-name'].value(85.0))
+"""
+    assert run(use, f'()\n{source}', tmp_path) == 'east'

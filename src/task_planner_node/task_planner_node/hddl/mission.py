@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from task_planner_node.errors import Diagnostic, MissionError
 from task_planner_node.hddl.domain import read_domain
 from task_planner_node.hddl.problem import read_problem
@@ -11,14 +13,21 @@ from task_planner_node.language.reading import Reading
 from task_planner_node.language.source import Source
 from task_planner_node.language.spelling import Spelling
 
+_BLANK = re.compile(r'\s*')
+_START = re.compile(r'\(\s*define\s', re.IGNORECASE)
+
 
 def is_hddl(source: Source) -> bool:
-    """Whether a text begins with ``(define``, comments aside; a text that cannot be read does not count."""
-    try:
-        nodes = read(source)
-    except MissionError:
-        return False
-    return bool(nodes) and first_word(nodes[0]) == 'define'
+    """Whether a text begins with ``(define``, comments aside."""
+    place = 0
+    while True:
+        blank = _BLANK.match(source.text, place)
+        place = blank.end() if blank else place
+        if not source.text.startswith(';', place):
+            return _START.match(source.text, place) is not None
+        place = source.text.find('\n', place)
+        if place < 0:
+            return False
 
 
 def read_hddl(domain: Source, problem: Source) -> tuple[Domain, Problem]:

@@ -33,10 +33,10 @@ SKIPPING = frozenset({'#.', '#+', '#-'})
 MAX_MARKS = 8
 
 _TOKEN = re.compile(
-    r"""\s+|;[^\n]*|(?P<block>\#\|)|(?P<open>\()|(?P<close>\))
+    r"""\s*(?:;[^\n]*|(?P<block>\#\|)|(?P<open>\()|(?P<close>\))
     |(?P<mark>'|`|,@|,|\#'|\#\.|\#\+|\#-)
     |(?P<string>"(?:[^"\\]|\\.)*"?)
-    |(?P<symbol>(?:\#\\.|\\.|\|[^|]*\||[^\s()"';`,|\\])+|[|\\])""",
+    |(?P<symbol>(?:\#\\.|\\.|\|[^|]*\||[^\s()"';`,|\\])+|[|\\])|$)""",
     re.VERBOSE | re.DOTALL,
 )
 _BLOCK = re.compile(r'\#\||\|\#')
@@ -85,12 +85,11 @@ def read(source: Source) -> list[Node]:
     place = count = 0
     while place < len(text):
         token = _TOKEN.match(text, place)
-        if token is None:
-            raise _error(source, place, place + 1, f'unexpected character {text[place]!r}')
-        start, place = token.span()
-        kind = token.lastgroup
-        if kind is None:
+        kind = token.lastgroup if token else None
+        if token is None or kind is None:
+            place = token.end() if token else place + 1
             continue
+        start, place = token.span(kind)
         count += 1
         if count > MAX_NODES:
             raise _error(source, start, place, f'more than {MAX_NODES} words and parentheses')
@@ -109,7 +108,7 @@ def read(source: Source) -> list[Node]:
         else:
             if kind == 'string' and (place - start < 2 or text[place - 1] != '"'):
                 raise _error(source, start, place, 'the string that begins here does not end')
-            symbol = Symbol(token.group(), start, place)
+            symbol = Symbol(text[start:place], start, place)
             if not stack:
                 top.append(symbol)
                 continue

@@ -21,7 +21,8 @@ class Refused(Exception):
 
 
 class Reading:
-    """The reading of one text; ``errors`` and ``warnings`` are what has been found so far.
+    """The reading of one text; ``errors`` and ``warnings`` are what has been found so far, ``names`` the
+    spelling of the names.
 
     HDDL has no ``anonymous`` variables.
     """
@@ -33,6 +34,7 @@ class Reading:
         self.spelling = spelling or Spelling()
         self.errors: list[Diagnostic] = []
         self.warnings: list[Diagnostic] = []
+        self.names: dict[str, str] = {}
         self._anonymous = 0 if anonymous else None
 
     @property

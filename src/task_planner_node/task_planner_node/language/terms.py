@@ -106,11 +106,15 @@ def _read_number(reading: Reading, node: Symbol) -> int | float:
 
 def read_name(reading: Reading, node: Symbol) -> str:
     """The name that a symbol is, in its first spelling and without the name of a Lisp package."""
+    known = reading.names.get(node.text)
+    if known is not None:
+        return known
     _refuse_reserved(reading, node)
     text = node.text
     if '::' in text:
         text = text.rsplit('::', 1)[1] or text
-    return reading.spelling.of(text)
+    name = reading.names[node.text] = reading.spelling.of(text)
+    return name
 
 
 def _refuse_reserved(reading: Reading, node: Symbol) -> None:
