@@ -327,6 +327,16 @@ def test_names_have_no_case_and_labels_are_spelt_as_in_the_facts() -> None:
     assert not [d for d in check_mission(found, facts) if 'domain' in d.message]
 
 
+def test_a_label_that_is_spelt_in_two_ways_is_a_warning() -> None:
+    text = '(defproblem p d ((at Rover0 a) (at ROVER0 b) (list (has rover0 Rover0)) (A 1)) ())'
+    remarks = problem(text).remarks
+    assert [remark.message for remark in remarks] == [
+        'ROVER0 is Rover0, spelt differently: names have no case',
+        'rover0 is Rover0, spelt differently: names have no case',
+    ]
+    assert [text[remark.column - 1 :][:6] for remark in remarks] == ['ROVER0', 'rover0']
+
+
 def test_several_problems_and_domains_in_one_text() -> None:
     text = """
     (in-package :shop-user)

@@ -148,6 +148,7 @@ def _read_defproblem(reading: Reading, node: ListNode) -> Problem:
         reading.errors.append(refused.diagnostic)
     if reading.errors:
         raise MissionError(reading.errors)
+    _warn_of_spellings(reading, facts)
     goals = tuple(goal for task in tasks_of(tasks) for goal in _goals(reading, task))
     domain_name = read_name(reading, domain) if domain else ''
     return Problem(
@@ -161,6 +162,22 @@ def _read_defproblem(reading: Reading, node: ListNode) -> Problem:
         goals,
         remarks=tuple(reading.warnings),
     )
+
+
+def _warn_of_spellings(reading: Reading, facts: list[Atom]) -> None:
+    """Warn of each label that the facts spell in two ways: for the motion planner they are two."""
+    warned: set[str] = set()
+    agenda: list[Node] = [child for fact in facts for child in fact.node.children[1:]][::-1]
+    while agenda:
+        node = agenda.pop()
+        if isinstance(node, ListNode):
+            agenda.extend(reversed(node.children))
+            continue
+        first = reading.names.get(node.text, node.text)
+        if first.lower() == node.text.lower() and first != node.text and node.text not in warned:
+            warned.add(node.text)
+            message = f'{node.text} is {first}, spelt differently: names have no case'
+            reading.warn(node, message)
 
 
 def _ground(reading: Reading, atom: Atom) -> Atom:
