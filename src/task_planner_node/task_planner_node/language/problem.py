@@ -10,6 +10,7 @@ from task_planner_node.language.model import Atom, Problem
 from task_planner_node.language.reader import (
     DEFINITION_WORDS,
     DOMAIN_WORDS,
+    MARKS,
     ListNode,
     Node,
     Symbol,
@@ -77,9 +78,19 @@ def _same(left: str, right: str) -> bool:
     return left.lower() == right.lower()
 
 
+def _unread_name(node: Node) -> list[Node]:
+    """The name of a problem with the mark before it, if there is one."""
+    children = children_of(node)[1:3]
+    return children if children and _is_mark(children[0]) else children[:1]
+
+
+def _is_mark(node: Node) -> bool:
+    return isinstance(node, Symbol) and node.text in MARKS
+
+
 def _name_of(reading: Reading, node: Node) -> str:
     """The name of a problem: a symbol, perhaps quoted, or the first of a list with options."""
-    children = unmarked(reading.source, children_of(node))[1:2]
+    children = unmarked(reading.source, _unread_name(node))
     if children:
         named = _unquoted(children[0])
         inner = children_of(named)

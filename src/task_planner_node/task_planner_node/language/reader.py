@@ -140,6 +140,8 @@ def unmarked(source: Source, nodes: list[Node]) -> list[Node]:
     ``#.x`` becomes x, ``#+`` drops the two nodes behind it and ``#-`` the first of them.  Raises MissionError
     for a mark with nothing behind it and for more than MAX_MARKS marks in a row.
     """
+    if not source.has_marks:
+        return nodes
     done: list[Node] = []
     marks = 0
     for node in reversed(nodes):

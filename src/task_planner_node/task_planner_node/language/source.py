@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import stat
 from bisect import bisect_right
 from functools import cached_property
@@ -11,6 +12,7 @@ from task_planner_node.errors import Diagnostic, MissionError, Severity
 
 MAX_BYTES = 8 << 20
 EXCERPT = 60
+MARK = re.compile(r"['`,]|#[.+-]")
 ALLOWED_CONTROLS = frozenset('\t\n\r\f\v')
 
 
@@ -24,6 +26,11 @@ class Source:
     @cached_property
     def _line_starts(self) -> list[int]:
         return [0] + [i + 1 for i, character in enumerate(self.text) if character == '\n']
+
+    @cached_property
+    def has_marks(self) -> bool:
+        """Whether a quote, a comma or another mark of Lisp occurs anywhere in the text."""
+        return MARK.search(self.text) is not None
 
     def position(self, offset: int) -> tuple[int, int]:
         """Line and column of ``offset``, both from 1."""
