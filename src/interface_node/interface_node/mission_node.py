@@ -66,7 +66,7 @@ class Mission:
         self._world = World()
         self._steps: list[Step] = []
         self._statistics = PlanningStatistics()
-        self._progress = PlanningProgress(best_length=inf)
+        self._progress = PlanningProgress(best_length=inf, best_cost=inf)
 
     def run(self) -> PlanMission.Result:
         """Plan, publish and record the mission, and keep telling that it is being worked on."""

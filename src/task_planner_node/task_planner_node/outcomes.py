@@ -37,7 +37,10 @@ class Options:
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """Where a search stands; lengths in metres, ``elapsed`` in seconds."""
+    """Where a search stands; lengths in metres, ``elapsed`` in seconds.
+
+    ``best_cost`` is that of the best plan so far; ``improved`` is this plan when it is new.
+    """
 
     phase: str
     goals_reached: int = 0
@@ -48,6 +51,8 @@ class Progress:
     current_length: float = 0.0
     best_length: float = inf
     elapsed: float = 0.0
+    best_cost: float = inf
+    improved: Plan | None = None
 
 
 @dataclass(frozen=True, slots=True)

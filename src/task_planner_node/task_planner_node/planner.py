@@ -20,9 +20,12 @@ from task_planner_node.language.model import Domain, Problem, show
 from task_planner_node.mission import MissionText, check_and_compile, read_mission
 from task_planner_node.oracle import INVALID_CODES, Oracle, Token
 from task_planner_node.outcomes import Options, Outcome, Progress, Result
+from task_planner_node.search.domain import Start
 from task_planner_node.search.engine import Search
 from task_planner_node.search.geometry import Geometry, RequestRefused
 from task_planner_node.search.partial_plan import Limits
+from task_planner_node.search.plans import Plan
+from task_planner_node.search.repair import Interrupted, Repair
 from task_planner_node.search.state import State
 from task_planner_node.search.statistics import Statistics
 
@@ -51,16 +54,27 @@ class Planner:
         self._reported = -1.0
         self._statistics = Statistics()
         self._search: Search | None = None
+        self._told: Plan | None = None
         self._state: State | None = None
         self._problem: Problem | None = None
         self._domain: Domain | None = None
 
-    def plan(self, domain: MissionText, problem: MissionText, start: Token = ()) -> Result:
-        """Plan a mission from the geometric state ``start``; never raises for what is in the texts."""
+    def plan(
+        self,
+        domain: MissionText,
+        problem: MissionText,
+        start: Token = (),
+        interrupted: Interrupted | None = None,
+    ) -> Result:
+        """Plan a mission from the geometric state ``start``; never raises for what is in the texts.
+
+        With ``interrupted`` the facts of the problem are those that hold now, and what is left of that plan is to
+        be done instead of the tasks of the problem: as much of it as possible is kept (search/repair.py).
+        """
         diagnostics: tuple[Diagnostic, ...] = ()
         try:
             outcome, explanation, diagnostics = on_deep_stack(
-                lambda: self._plan(domain, problem, start)
+                lambda: self._plan(domain, problem, start, interrupted)
             )
         except MissionError as error:
             outcome, explanation = Outcome.INVALID, str(error)
@@ -85,7 +99,11 @@ class Planner:
         return Result(outcome, explanation, diagnostics, plans, self._statistics, details)
 
     def _plan(
-        self, domain_text: MissionText, problem_text: MissionText, start: Token
+        self,
+        domain_text: MissionText,
+        problem_text: MissionText,
+        start: Token,
+        interrupted: Interrupted | None,
     ) -> tuple[Outcome, str, tuple[Diagnostic, ...]]:
         self._say('loading', force=True)
         domain, problem = read_mission(domain_text, problem_text)
@@ -93,6 +111,12 @@ class Planner:
         self._say('checking', force=True)
         mission = check_and_compile(domain, problem, self._oracle)
         facts = [(fact.name, *fact.args) for fact in problem.facts]
+        beginning: Start = mission.domain.beginning(problem)
+        if interrupted is not None:
+            facts = interrupted.facts(domain, facts)
+            beginning = Repair(
+                beginning, interrupted, lambda: self._search.deepest if self._search else 0
+            )
         self._state = State(mission.domain.plan, facts, self._check)
         geometry = Geometry(
             self._oracle,
@@ -103,12 +127,13 @@ class Planner:
         options = self._options
         search = self._search = Search(
             mission.domain,
-            mission.domain.beginning(problem),
+            beginning,
             self._state,
             geometry,
             self._statistics,
             Limits(options.max_depth, options.optimise, options.use_advice, options.plans),
             self._check,
+            self._improve,
         )
         self._say('searching', force=True)
         search.run(start)
@@ -140,12 +165,23 @@ class Planner:
         explanation, remarks = explain_failure(search, reason, domain, problem)
         return Outcome.LIMIT, explanation, remarks
 
+    def _improve(self, _: Plan) -> None:
+        if self._options.optimise:
+            self._say('searching', force=True)
+
     def _check(self) -> None:
         if self._should_stop():
             raise Cancelled
         if time.monotonic() - self._began > self._options.time_budget:
             raise LimitReached(f'the time budget of {self._options.time_budget:g} s is spent')
         self._say('searching')
+
+    def _improved(self, best: Plan | None) -> Plan | None:
+        """The best plan, if it was not told yet."""
+        if best is self._told:
+            return None
+        self._told = best
+        return best
 
     def _say(self, phase: str, force: bool = False) -> None:
         elapsed = time.monotonic() - self._began
@@ -170,5 +206,7 @@ class Planner:
                 position[1].length if position else 0.0,
                 best.length if best else inf,
                 elapsed,
+                best.cost if best else inf,
+                self._improved(best),
             )
         )

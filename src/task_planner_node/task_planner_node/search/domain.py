@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 from task_planner_node.errors import Diagnostic
 from task_planner_node.language.model import (
@@ -30,6 +31,19 @@ from task_planner_node.search.state import IndexPlan, State
 from task_planner_node.search.structure import least_costs, recursive_names
 from task_planner_node.search.terms import Frame, Slots
 from task_planner_node.search.unbound import known
+
+
+class Start(Protocol):
+    """What is to be done, and what is to hold in the end."""
+
+    def networks(self, state: State) -> Iterator[Network]:
+        """The networks to begin with: each is a choice."""
+
+    def reached(self, state: State) -> bool:
+        """Whether the goal holds."""
+
+    def unmet(self, state: State) -> str:
+        """The first part of the goal that does not hold."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -9,7 +9,7 @@ from task_planner_node.language.model import shorten, show
 from task_planner_node.oracle import Token
 from task_planner_node.search.closed import Visited
 from task_planner_node.search.dead_ends import DeadEnd, DeadEnds
-from task_planner_node.search.domain import Beginning, CompiledDomain
+from task_planner_node.search.domain import CompiledDomain, Start
 from task_planner_node.search.geometry import Geometry
 from task_planner_node.search.loosely import shape
 from task_planner_node.search.network import Network, Parallel, Task, all_tasks
@@ -44,7 +44,7 @@ class Search:
     def __init__(
         self,
         domain: CompiledDomain,
-        beginning: Beginning,
+        beginning: Start,
         state: State,
         geometry: Geometry,
         statistics: Statistics,
@@ -247,7 +247,7 @@ class Search:
             unmet = self._beginning.unmet(self._state)
             self.dead_ends.add(('goal',), 'goal', f'not reached when all is done: {unmet}')
             return False
-        self.plans.add(self.log, where.length, cost)
+        self.plans.add(self.log, self._state.history(), where.length, cost)
         return self.plans.enough
 
     def _hopeless_from_the_start(self) -> bool:

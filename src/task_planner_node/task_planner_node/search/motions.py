@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from task_planner_node.oracle import Answer, Status
 from task_planner_node.search.dead_ends import not_satisfied
 from task_planner_node.search.geometry import Geometry, Request
-from task_planner_node.search.network import Cell, Path, replace
+from task_planner_node.search.network import Cell, Kept, Path, replace
 from task_planner_node.search.operators import CompiledOperator
 from task_planner_node.search.partial_plan import (
     Expansion,
@@ -113,10 +113,13 @@ class Motions:
         network, where, cost, rest_cost, actions, _, _ = position
         price = operator.cost(frame)
         reason = operator.apply(self._state, frame)
+        if isinstance(cell[0], Kept) and not cell[0].done(self._state.facts):
+            reason = 'it would not do any more what it did in the plan before'
         if reason:
             self._search.dead_ends.add(cell[0], 'protected', reason)
             return None
         expansion = Expansion(cell[0], cell[2], cell[3], operator)
+        expansion.mark = self._state.mark()
         expansion.motion = Motion(price, request.text, where.start, answer)
         self._search.log.append(expansion)
         lineage = answer.end if answer.assigned else where.lineage

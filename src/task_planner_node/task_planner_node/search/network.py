@@ -9,7 +9,7 @@ of the text.  ``key`` is a hash of the tasks and their order.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from typing import Any
 
 Task = tuple[Any, ...]
@@ -21,6 +21,19 @@ class Immediate(tuple[Any, ...]):
     """A task that comes before all others once it may come next."""
 
     __slots__ = ()
+
+
+class Kept(tuple[Any, ...]):
+    """A task of an operator that is to do what it did before: make ``added`` facts true and ``removed`` ones false."""
+
+    added: tuple[Any, ...] = ()
+    removed: tuple[Any, ...] = ()
+
+    def done(self, facts: Container[Any]) -> bool:
+        """Whether it did, if ``facts`` hold after it."""
+        return all(fact in facts for fact in self.added) and not any(
+            fact in facts for fact in self.removed
+        )
 
 
 class Parallel:

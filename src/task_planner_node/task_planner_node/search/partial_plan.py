@@ -15,10 +15,11 @@ from task_planner_node.search.unbound import Values
 class Expansion:
     """A task that was done by an operator or decomposed by a branch: one line of the search's log.
 
-    ``since`` identifies the state and the number of actions at a recursive task.
+    ``since`` identifies the state and the number of actions at a recursive task; ``mark`` is the length of the trail
+    after an operator.
     """
 
-    __slots__ = ('by', 'motion', 'parent', 'place', 'since', 'task', 'values')
+    __slots__ = ('by', 'mark', 'motion', 'parent', 'place', 'since', 'task', 'values')
 
     def __init__(
         self,
@@ -31,6 +32,7 @@ class Expansion:
         self.parent = parent
         self.place = place
         self.by = by
+        self.mark = 0
         self.motion: Motion | None = None
         self.since: tuple[int, int] | None = None
         self.values: Values | None = None

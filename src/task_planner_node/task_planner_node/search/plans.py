@@ -12,6 +12,7 @@ from task_planner_node.language.model import show
 from task_planner_node.oracle import Answer, Token
 from task_planner_node.search.operators import CompiledOperator
 from task_planner_node.search.partial_plan import Expansion, Limits
+from task_planner_node.search.state import Fact, History
 from task_planner_node.search.tree import Tree, TreeNode
 from task_planner_node.search.unbound import Values, resolved
 
@@ -32,8 +33,20 @@ class Plan:
     """A complete plan: ``cost`` is that of the operators plus ``length`` [m], the length of all motions."""
 
     log: tuple[Expansion, ...]
+    history: History
     cost: float
     length: float
+
+    def facts_after(self, executed: int) -> list[Fact]:
+        """The facts that hold once the first ``executed`` actions are done."""
+        mark = 0
+        for expansion in self.log:
+            if isinstance(expansion.by, CompiledOperator):
+                executed -= not expansion.by.internal
+                if executed < 0:
+                    break
+                mark = expansion.mark
+        return self.history.facts(mark)
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:
@@ -121,9 +134,9 @@ class Plans:
         """Whether no further plan is wanted."""
         return not self._limits.optimise and len(self.kept) >= self._limits.plans
 
-    def add(self, log: Sequence[Expansion], length: float, cost: float) -> None:
+    def add(self, log: Sequence[Expansion], history: History, length: float, cost: float) -> None:
         """Keep a plan, unless one with the same actions is kept already or it is too expensive."""
-        plan = Plan(tuple(log), cost, length)
+        plan = Plan(tuple(log), history, cost, length)
         wanted = self._limits.plans
         for kept in self.kept if wanted > 1 else ():
             if kept.actions == plan.actions:

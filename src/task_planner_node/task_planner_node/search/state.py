@@ -110,6 +110,24 @@ class IndexPlan:
         return number
 
 
+@dataclass(frozen=True, slots=True)
+class History:
+    """The facts at first, and the changes in their order, each with whether the fact became true."""
+
+    initial: tuple[Fact, ...]
+    changes: tuple[tuple[Fact, bool], ...]
+
+    def facts(self, mark: int) -> list[Fact]:
+        """The facts that held at a mark of the state."""
+        facts = dict.fromkeys(self.initial)
+        for fact, added in self.changes[:mark]:
+            if added:
+                facts[fact] = None
+            else:
+                del facts[fact]
+        return list(facts)
+
+
 class _Buckets(dict[int, dict[Any, Bucket]]):
     """Indices by number, each built when it is first looked at."""
 
@@ -256,6 +274,11 @@ class State:
             raise TooMuchWork
         self._watch()
         self.next_look = self.work + LOOK_INTERVAL
+
+    def history(self) -> History:
+        """All facts that hold at first, and all changes since."""
+        changes = [(fact, replaced is None) for fact, replaced in self._trail]
+        return History(tuple(self._initial), tuple(changes))
 
     def mark(self) -> int:
         """A point to undo to."""

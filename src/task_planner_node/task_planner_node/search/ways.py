@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from task_planner_node.search.conditions import Found
 from task_planner_node.search.dead_ends import not_satisfied
-from task_planner_node.search.domain import Beginning, CompiledDomain
+from task_planner_node.search.domain import CompiledDomain, Start
 from task_planner_node.search.geometry import Geometry
 from task_planner_node.search.guidance import leading_text
 from task_planner_node.search.loosely import Loosely
@@ -17,6 +17,7 @@ from task_planner_node.search.motions import Motions
 from task_planner_node.search.network import (
     Cell,
     Immediate,
+    Kept,
     Network,
     Parallel,
     Path,
@@ -65,7 +66,7 @@ class Ways:
         self,
         search: Search,
         domain: CompiledDomain,
-        beginning: Beginning,
+        beginning: Start,
         state: State,
         geometry: Geometry,
         limits: Limits,
@@ -248,10 +249,13 @@ class Ways:
         network, where, cost, rest_cost, actions, _, _ = position
         price = operator.cost(frame)
         reason = operator.apply(self._state, frame)
+        if isinstance(cell[0], Kept) and not cell[0].done(self._state.facts):
+            reason = 'it would not do any more what it did in the plan before'
         if reason:
             self._search.dead_ends.add(cell[0], 'protected', reason)
             return None
         expansion = Expansion(cell[0], cell[2], cell[3], operator)
+        expansion.mark = self._state.mark()
         if price != operator.least_cost:
             expansion.motion = Motion(price)
         self._log.append(expansion)
