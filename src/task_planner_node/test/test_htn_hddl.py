@@ -160,6 +160,16 @@ def test_types_become_facts_and_tests_where_they_do_not_follow() -> None:
     )
 
 
+def test_a_caller_with_a_wider_type_makes_an_action_test_its_own() -> None:
+    assert written(read()[0].operators[0].condition) == ('and', '(at ?t ?a)', '(road ?a ?b)')
+    wider = DOMAIN.replace(
+        '(?t - truck ?a ?p - place)\n  :task', '(?t - vehicle ?a ?p - place)\n  :task'
+    )
+    assert wider != DOMAIN
+    drive = read(wider)[0].operators[0]
+    assert written(drive.condition) == ('and', '(type-truck ?t)', '(at ?t ?a)', '(road ?a ?b)')
+
+
 def test_effects() -> None:
     unload = read()[0].operators[2]
     deleted, opened = unload.deletes
@@ -321,6 +331,14 @@ def test_nested_networks_allow_exactly_the_orders_of_the_constraints(
         if all(order.index(i) < order.index(j) for i, j in pairs)
     }
     assert orders(network) == wanted
+
+
+def test_a_partial_order_has_no_pair_that_follows_from_others() -> None:
+    after = [0b01000, 0b11100, 0, 0b10000, 0]
+    after[0] |= after[3]
+    network = nested(atoms(5), [*range(5)], after)
+    assert isinstance(network, Partial)
+    assert network.before == ((0, 3), (1, 2), (1, 3), (3, 4))
 
 
 def test_the_plan_in_the_competitions_format() -> None:

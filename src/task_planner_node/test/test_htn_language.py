@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from task_planner_node.errors import MissionError
+from task_planner_node.errors import MissionError, Severity
 from task_planner_node.language import (
     Source,
     Spelling,
@@ -327,6 +327,21 @@ def test_names_have_no_case_and_labels_are_spelt_as_in_the_facts() -> None:
     assert not [d for d in check_mission(found, facts) if 'domain' in d.message]
 
 
+def test_a_label_is_spelt_as_itself_and_not_as_a_predicate_or_a_task_before_it() -> None:
+    spelling = Spelling()
+    found = problem(
+        '(defproblem p d ((ROVER rover) (Pilot rover)) ((DRIVE rover)))', spelling=spelling
+    )
+    assert [written(fact) for fact in found.facts] == ['(rover rover)', '(Pilot rover)']
+    text = (
+        '(:method (DRIVE ?x) ((CAMERA ?x camera)) ((!O ?x base))) (:operator (!o ?x BASE) () () ())'
+    )
+    (method,) = read_domain(Source('d.lisp', text), spelling).methods
+    condition_found = method.branches[0].condition
+    assert isinstance(condition_found, And)
+    assert written(condition_found.conditions[0]) == '(camera ?x camera)'
+
+
 def test_a_label_that_is_spelt_in_two_ways_is_a_warning() -> None:
     text = '(defproblem p d ((at Rover0 a) (at ROVER0 b) (list (has rover0 Rover0)) (A 1)) ())'
     remarks = problem(text).remarks
@@ -335,6 +350,45 @@ def test_a_label_that_is_spelt_in_two_ways_is_a_warning() -> None:
         'rover0 is Rover0, spelt differently: names have no case',
     ]
     assert [text[remark.column - 1 :][:6] for remark in remarks] == ['ROVER0', 'rover0']
+
+
+@pytest.mark.parametrize(
+    'text',
+    [
+        '((or (a ?y) (b ?y)) (call > ?y ?x))',
+        '((not (a ?y)) (call > ?x 1))',
+        '((assign ?y 1) (assign* ?z (list ?y)) (call > ?z 0))',
+        '((setof ?y (a ?y) ?ys) (call length ?ys))',
+        '((forall (?y) (a ?y) ((call > ?y ?x))))',
+        '((forall (?y) (a ?y) ((assign ?z ?y) (call > ?z ?x))))',
+        '(:sort-by ?y (a ?y))',
+        '((:first (a ?y)) (call > ?y 1))',
+        '((call variablep ?y) (a ?y))',
+        '((a ?y (call + ?x 1)))',
+    ],
+)
+def test_what_is_bound_before_it_is_computed_is_no_error(text: str) -> None:
+    found = domain(f'(:method (m ?x) {text} ())')
+    facts = problem('(defproblem p () ((a 1) (b 1)) ())')
+    errors = [d for d in check_mission(found, facts) if d.severity == Severity.ERROR]
+    assert errors == []
+
+
+@pytest.mark.parametrize(
+    'text',
+    [
+        '((call > ?y 1) (a ?y))',
+        '((assign ?y (+ ?y 1)))',
+        '((or (call > ?y 1) (b ?x)))',
+        '((a ?x (call + ?y 1)))',
+        '((not (call > ?y 1)))',
+    ],
+)
+def test_what_is_not_bound_before_it_is_computed_is_an_error(text: str) -> None:
+    found = domain(f'(:method (m ?x) {text} ())')
+    facts = problem('(defproblem p () ((a 1) (b 1)) ())')
+    (error,) = [d for d in check_mission(found, facts) if d.severity == Severity.ERROR]
+    assert error.message == '?y in a call is bound by neither the head nor the preconditions'
 
 
 def test_several_problems_and_domains_in_one_text() -> None:
@@ -348,9 +402,11 @@ def test_several_problems_and_domains_in_one_text() -> None:
     #.(make-problem 'p3 'two '((a) (b 1)) '(:unordered (m) (n)))
     (defproblem p4 NIL (m))
     (find-plans 'p1 :verbose :plans)
+    #+sbcl (defproblem p5 one () (m))
+    #-sbcl (defproblem p6 one () (m))
     """
     source = Source('all.lisp', text)
-    assert problem_names(source) == ['p1', 'p2', 'p3', 'p4']
+    assert problem_names(source) == ['p1', 'p2', 'p3', 'p4', 'p6']
     third = read_problem(source, name='P3')
     assert (third.domain_name, len(third.facts)) == ('two', 2)
     assert isinstance(third.tasks, Unordered)
@@ -359,7 +415,7 @@ def test_several_problems_and_domains_in_one_text() -> None:
     two = read_domain(source, name='two')
     assert len(two.methods) == 2
     assert ['Lisp is not evaluated' in d.message for d in two.remarks] == [True]
-    with pytest.raises(MissionError, match='name one of p1, p2, p3, p4'):
+    with pytest.raises(MissionError, match='name one of p1, p2, p3, p4, p6'):
         read_problem(source)
     with pytest.raises(MissionError, match='has no problem p9: it has p1'):
         read_problem(source, name='p9')

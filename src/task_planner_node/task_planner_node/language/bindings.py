@@ -21,6 +21,7 @@ from task_planner_node.language.model import (
     Forall,
     ForEach,
     Holds,
+    Imply,
     Not,
     Or,
     Pattern,
@@ -149,11 +150,12 @@ def _unset(source: Source, condition: Condition, known: set[str]) -> Iterator[Di
                 yield from _missing(source, application, known, 'a call', application.node)
         elif isinstance(part, (Assign, AssignEach, Holds)) and not _about_unbound(part.expression):
             yield from _missing(source, part.expression, known, 'a call', part.node)
-        if isinstance(part, (Or, Not, Forall, Exists, Collect, SortBy)):
-            # What a choice binds cannot be told; nothing in it is reported twice.
+        if isinstance(part, (Or, Not, Imply, Forall, Exists, Collect, SortBy)):
+            before = known
             for inner in parts_of(part):
-                before = known | set(variables_in_condition(part))
                 yield from _unset(source, inner, before)
+                if isinstance(part, (Forall, Exists)):
+                    before = before | set(variables_in_condition(inner))
             known |= set(variables_in_condition(part))
         elif not isinstance(part, (Assign, AssignEach, Holds)):
             agenda.extend(reversed(parts_of(part)))
