@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from task_planner_node.errors import MissionError, Severity
 from task_planner_node.language import (
@@ -45,8 +47,10 @@ from task_planner_node.language.model import (
     Stated,
     Unordered,
     Variable,
+    chain,
     show,
 )
+from task_planner_node.language.terms import NUMBER
 from task_planner_node.language.walk import variables_of
 
 X, Y = Variable('?x'), Variable('?y')
@@ -455,3 +459,29 @@ def test_nothing_says_that_a_predicate_is_never_true_where_effects_are_variables
     assert not [
         d for d in check_mission(found, problem('(defproblem p () () (m))')) if 'ever' in d.message
     ]
+
+
+NAMES = st.text(st.sampled_from('abcxyz019-_+*!<>=:.%&@~^$'), min_size=1, max_size=8).filter(
+    lambda text: (
+        not text[0].isdigit()
+        and '::' not in text
+        and text not in {'.', 'nil'}
+        and not NUMBER.fullmatch(text)
+    )
+)
+ATOMS = NAMES | st.integers() | st.floats(allow_nan=False, allow_infinity=False)
+GROUND = st.recursive(
+    ATOMS,
+    lambda inner: (
+        st.lists(inner, max_size=4).map(tuple)
+        | st.builds(chain, st.lists(inner, min_size=1, max_size=3).map(tuple), inner)
+    ),
+    max_leaves=15,
+)
+
+
+@given(st.lists(GROUND, max_size=4).map(tuple))
+def test_what_is_shown_is_read_back(terms: tuple[Any, ...]) -> None:
+    found = fact(show(('f', *terms)))
+    assert found == ('f', *terms)
+    assert show(found) == show(('f', *terms))
