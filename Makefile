@@ -6,7 +6,7 @@ TYPECHECKS := mypy $(foreach file,$(wildcard src/*/test/conftest.py),'mypy $(fil
 
 .DEFAULT_GOAL := help
 .PHONY: help setup mission test format lint typecheck experiments experiment-mission \
-  experiment-constraints experiment-packages fuzz clean
+  experiment-constraints experiment-htn experiment-packages fuzz clean
 
 help: ## List the targets
 	@echo 'make TARGET [PYTHON=python3.12]'
@@ -38,13 +38,16 @@ lint: setup ## Check format and lint
 typecheck: setup ## Check the types
 	@status=0; for check in $(TYPECHECKS); do $(RUN) $$check || status=1; done; exit $$status
 
-experiments: experiment-mission experiment-constraints ## Run all experiments; results in out/experiments
+experiments: experiment-mission experiment-constraints experiment-htn ## Run all experiments; results in out/experiments
 
 experiment-mission: setup ## Measure the rover mission: planning time and where it goes
 	@$(RUN) python -m experiments.mission.run
 
 experiment-constraints: experiment-packages ## Measure the solver of constraints beside scipy and CasADi
 	@$(RUN) python -m experiments.constraints.run
+
+experiment-htn: experiment-packages ## Measure the task planner beside GTPyhop and Aries
+	@$(RUN) python -m experiments.htn.run
 
 experiment-packages: setup
 	@$(RUN) python -m pip install --quiet --disable-pip-version-check --no-deps -r ros2_ws/requirements/experiments.txt
