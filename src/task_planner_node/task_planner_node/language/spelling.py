@@ -16,7 +16,6 @@ class Spelling:
 
     def __init__(self) -> None:
         self._first: dict[str, str] = {'t': 't'}
-        self.respelt: dict[str, set[str]] = {}
 
     def learn(self, nodes: Iterable[Node]) -> None:
         """Take over the spelling of all symbols in ``nodes``, those that begin a list after the others."""
@@ -26,10 +25,7 @@ class Spelling:
 
     def of(self, text: str) -> str:
         """The spelling of a name."""
-        spelling = self._first.setdefault(text.lower(), text)
-        if spelling != text:
-            self.respelt.setdefault(spelling, set()).add(text)
-        return spelling
+        return self._first.setdefault(text.lower(), text)
 
 
 def _symbols(nodes: Iterable[Node]) -> Iterator[tuple[str, bool]]:
