@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from math import isfinite
 
 from geohtn_msgs.action import PlanTasks
 from geohtn_msgs.msg import (
@@ -77,6 +78,7 @@ def _candidate(message: CandidateAdviceMessage) -> CandidateAdvice:
         int(message.code),
         message.message,
         tuple(message.objects),
+        max(0.0, float(message.lower_bound)) if isfinite(message.lower_bound) else 0.0,
     )
 
 

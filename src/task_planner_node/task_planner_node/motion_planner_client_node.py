@@ -25,7 +25,9 @@ from task_planner_node.errors import Cancelled, GeometryUnavailable, LimitReache
 from task_planner_node.oracle import Advice, Answer, Query, TextCheck, Token
 from task_planner_node.parameters import Parameters
 
-POLL = 0.05
+# [s] between two looks at the mission, and without the service until it counts as gone.
+POLL = 0.02
+LOST = 0.5
 
 
 class MotionPlannerClient(Node):
@@ -83,6 +85,23 @@ class RemoteOracle:
 
     def satisfy(self, query: Query) -> Answer:
         """Oracle.satisfy."""
+        response = self._call(self.client.satisfy, self._request(query))
+        return answer_from_message(response.answer)
+
+    def satisfy_together(self, queries: Sequence[Query]) -> Sequence[Answer]:
+        """BatchOracle.satisfy_together: all requests are in flight at once, as replicas of the node can use."""
+        client = self.client.satisfy
+        self._wait_for_service(client)
+        futures = [client.call_async(self._request(query)) for query in queries]
+        try:
+            responses = [self._await(client, future, len(queries)) for future in futures]
+        finally:
+            for future in futures:
+                if not future.done():
+                    client.remove_pending_request(future)
+        return [answer_from_message(response.answer) for response in responses]
+
+    def _request(self, query: Query) -> SatisfyPreconditions.Request:
         request = GeometricRequest(
             request_id=f'{self.mission}:{query.alternative}:{" ".join(query.action)}',
             mission=self.mission,
@@ -95,8 +114,7 @@ class RemoteOracle:
             seed=self.seed,
             time_budget=self.parameters.request_time_budget,
         )
-        response = self._call(self.client.satisfy, SatisfyPreconditions.Request(request=request))
-        return answer_from_message(response.answer)
+        return SatisfyPreconditions.Request(request=request)
 
     def advise(self, start: Token, preconditions: Sequence[str]) -> Advice:
         """Oracle.advise."""
@@ -114,26 +132,30 @@ class RemoteOracle:
 
     def _call(self, client: Client, request: Any) -> Any:
         self._wait_for_service(client)
-        done = threading.Event()
         future = client.call_async(request)
+        try:
+            return self._await(client, future, 1)
+        finally:
+            if not future.done():
+                client.remove_pending_request(future)
+
+    def _await(self, client: Client, future: Any, waiting: int) -> Any:
+        """The response, of ``waiting`` ones that the motion planner may give one after the other."""
+        done = threading.Event()
         future.add_done_callback(lambda _: done.set())
-        patience = self.parameters.request_time_budget + self.parameters.service_timeout
+        patience = waiting * self.parameters.request_time_budget + self.parameters.service_timeout
         began = time.monotonic()
         lost = began
-        try:
-            while not done.wait(POLL):
-                self._check()
-                now = time.monotonic()
-                if client.service_is_ready():
-                    lost = now
-                if now - began > patience or now - lost > POLL * 10:
-                    raise GeometryUnavailable(
-                        f'the motion planner (service {client.srv_name}) did not answer within '
-                        f'{now - began:.1f} s: it is stuck or was stopped'
-                    )
-        finally:
-            if not done.is_set():
-                client.remove_pending_request(future)
+        while not done.wait(POLL):
+            self._check()
+            now = time.monotonic()
+            if client.service_is_ready():
+                lost = now
+            if now - began > patience or now - lost > LOST:
+                raise GeometryUnavailable(
+                    f'the motion planner (service {client.srv_name}) did not answer within '
+                    f'{now - began:.1f} s: it is stuck or was stopped'
+                )
         return future.result()
 
     def _wait_for_service(self, client: Client) -> None:

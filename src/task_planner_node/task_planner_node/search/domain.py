@@ -28,7 +28,7 @@ from task_planner_node.search.methods import CompiledMethod, Grow, Networks, com
 from task_planner_node.search.network import Network, Task
 from task_planner_node.search.operators import CompiledOperator, compile_operator
 from task_planner_node.search.state import IndexPlan, State
-from task_planner_node.search.structure import least_costs, recursive_names
+from task_planner_node.search.structure import least_costs, names_above, recursive_names
 from task_planner_node.search.terms import Frame, Slots
 from task_planner_node.search.unbound import known
 
@@ -77,7 +77,7 @@ class CompiledDomain:
     ``assigning`` names the operators whose geometric preconditions set an attitude.  ``geometric`` tells whether any
     operator has geometric preconditions, ``immediate`` whether any task has priority, ``loose`` whether tasks may
     have arguments without a value.  ``recursive`` names the tasks that may come up again below themselves;
-    ``least_costs`` are lower bounds of the cost of tasks by name.
+    ``may_assign`` those below which an attitude may be set; ``least_costs`` are lower bounds of the cost of tasks by name.
     """
 
     def __init__(self, domain: Domain, assigning: frozenset[str] = frozenset()) -> None:
@@ -106,6 +106,7 @@ class CompiledDomain:
         self._method_variants: dict[tuple[str, tuple[bool, ...]], list[CompiledMethod]] = {}
         self.geometric = any(operator.text is not None for operator in self.operators.values())
         self.recursive = recursive_names(self.methods)
+        self.may_assign = names_above(self.methods, assigning)
         self.least_costs = least_costs(self.operators, self.methods)
         networks = [branch.tasks for method in domain.methods for branch in method.branches]
         self.immediate = any(_is_immediate(network) for network in networks)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from task_planner_node.language.model import show
 from task_planner_node.oracle import (
     INVALID_CODES,
     Answer,
+    BatchOracle,
     Code,
     Oracle,
     Query,
@@ -21,6 +22,8 @@ from task_planner_node.search.network import Task
 from task_planner_node.search.statistics import Statistics
 
 MOST_ADVISED = 1000
+# Requests that are in flight at the same time.
+MOST_TOGETHER = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +51,11 @@ class Request:
     def key(self) -> str:
         """The texts as one; no text has a line break in it."""
         return f'{self.text}\n{self.behaviour}' if self.behaviour else self.text
+
+
+def _query(request: Request, alternative: int) -> Query:
+    action = tuple(show(part) for part in request.task)
+    return Query(action, request.text, request.start, alternative, request.behaviour)
 
 
 class RequestRefused(Exception):
@@ -90,6 +98,7 @@ class Geometry:
         self._answers: dict[tuple[str, Token, int], Answer] = {}
         self._nogoods: dict[tuple[Scope, Token, str], Nogood] = {}
         self._ranks: dict[Token, dict[str, int]] = {}
+        self._bounds: dict[Token, dict[str, float]] = {}
 
     def nogood(self, request: Request) -> Nogood | None:
         """Why a request cannot be met, when that is proven already."""
@@ -128,20 +137,39 @@ class Geometry:
         if cached is not None:
             return cached
         self._check_limits()
-        query = Query(
-            tuple(show(part) for part in request.task),
-            request.text,
-            request.start,
-            alternative,
-            request.behaviour,
-        )
         self._statistics.requests += 1
         if alternative:
             self._statistics.geometric_backtracks += 1
         began = time.monotonic()
-        answer = self._oracle.satisfy(query)
+        answer = self._oracle.satisfy(_query(request, alternative))
         self._statistics.exchanged(time.monotonic() - began, answer.time_spent)
         self._statistics.answers += 1
+        self._take(request, alternative, answer)
+        return answer
+
+    def ask_together(self, requests: Sequence[Request]) -> None:
+        """Ask for the first destinations of several requests at once; the answers are there when they are needed.
+
+        Nothing is asked of a motion planner that works on one request at a time.
+        """
+        if not isinstance(self._oracle, BatchOracle):
+            return
+        wanted = {(r.key, r.start, 0): r for r in requests if self.nogood(r) is None}
+        missing = [key for key in wanted if key not in self._answers][:MOST_TOGETHER]
+        if len(missing) < 2:
+            return
+        self._check_limits()
+        began = time.monotonic()
+        answers = self._oracle.satisfy_together([_query(wanted[key], 0) for key in missing])
+        round_trip = time.monotonic() - began
+        self._statistics.requests += len(missing)
+        self._statistics.exchanged(round_trip, sum(answer.time_spent for answer in answers))
+        for key, answer in zip(missing, answers, strict=True):
+            self._statistics.answers += 1
+            self._take(wanted[key], 0, answer)
+
+    def _take(self, request: Request, alternative: int, answer: Answer) -> None:
+        """Count and remember an answer, and learn from it."""
         if answer.status == Status.ERROR and answer.code != Code.NO_START:
             raise RequestRefused(request, answer)
         if answer.status == Status.FOUND:
@@ -152,8 +180,7 @@ class Geometry:
             self._statistics.impossible += 1
             if alternative == 0:
                 self._learn(request, answer.scope, answer.message, answer.objects)
-        self._answers[key] = answer
-        return answer
+        self._answers[request.key, request.start, alternative] = answer
 
     def _learn(self, request: Request, scope: Scope, reason: str, objects: tuple[str, ...]) -> None:
         place = {
@@ -164,6 +191,10 @@ class Geometry:
         self._nogoods[(scope, place[scope], request.key)] = Nogood(reason, objects)
         if scope != Scope.THIS_START:
             self.version += 1
+
+    def lower_bounds(self, start: Token) -> Mapping[str, float]:
+        """What advice said that motions from ``start`` cost at least [m], by ground text."""
+        return self._bounds.get(start, {})
 
     def ranks(
         self, start: Token, lineage: Token, texts: Sequence[str], ask: bool
@@ -182,7 +213,9 @@ class Geometry:
         advice = self._oracle.advise(start, wanted)
         self._statistics.exchanged(time.monotonic() - began, advice.time_spent)
         self._statistics.advices += 1
+        bounds = self._bounds.setdefault(start, {})
         for text, candidate in zip(wanted, advice.candidates, strict=False):
+            bounds[text] = candidate.lower_bound
             request = Request((), text, '', start, lineage)
             if candidate.impossible and self.nogood(request) is None:
                 self._learn(request, candidate.scope, candidate.message, candidate.objects)

@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from task_planner_node.search.domain import CompiledDomain
-from task_planner_node.search.network import Network, Task, cell, first_cells, replace
+from task_planner_node.search.geometry import Request
+from task_planner_node.search.network import Network, Task, first_cells, replace
+from task_planner_node.search.partial_plan import Whereabouts
 from task_planner_node.search.state import State
 from task_planner_node.search.unbound import ground
 
 MOST_STEPS = 32
 
 
-def leading_text(domain: CompiledDomain, state: State, task: Task) -> str | None:
-    """The ground geometric preconditions that ``task`` would meet first if it were done now.
+def leading_request(
+    domain: CompiledDomain, state: State, network: Network, where: Whereabouts
+) -> Request | None:
+    """What would be asked of the motion planner first if ``network`` were done now.
 
     Methods are followed by their first applicable branch and binding; operators without geometric
     preconditions are passed over without their effects.  None when that leads to no motion.  It is a
     guess that only serves to order choices.
     """
-    network: Network = cell(task, None)
     for _ in range(MOST_STEPS):
         if network is None:
             return None
@@ -32,7 +35,9 @@ def leading_text(domain: CompiledDomain, state: State, task: Task) -> str | None
                 return None
             if operator.text is not None:
                 for _ in operator.condition.solutions(state, frame):
-                    return operator.text(frame)
+                    behaviour = operator.behaviour(frame) if operator.behaviour else ''
+                    text = operator.text(frame)
+                    return Request(doing, text, behaviour, where.start, where.lineage)
                 return None
             grown = first[1]
         else:

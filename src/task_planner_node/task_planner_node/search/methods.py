@@ -7,11 +7,14 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from task_planner_node.language.model import (
+    And,
     Atom,
+    Condition,
     Immediate,
     Method,
     Ordered,
     Partial,
+    SortBy,
     TaskNetwork,
 )
 from task_planner_node.language.source import Source
@@ -34,7 +37,7 @@ class CompiledBranch:
 
     ``numbers`` counts the method among those for the same task and the branch in the method, from 1.
     ``tasks`` are the names of its tasks in the order of the text; ``loose`` tells whether these may have arguments
-    without a value.
+    without a value, ``sorted`` whether the order of its solutions is asked for.
     """
 
     method: str
@@ -44,6 +47,7 @@ class CompiledBranch:
     grow: Grow
     tasks: tuple[str, ...]
     loose: bool
+    sorted: bool
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -85,9 +89,16 @@ def compile_method(
                 network.with_unbound(grow),
                 tuple(network.tasks),
                 network.loose,
+                _is_sorted(branch.condition),
             )
         )
     return CompiledMethod(head.binder(), head, tuple(branches))
+
+
+def _is_sorted(condition: Condition) -> bool:
+    if isinstance(condition, And):
+        return any(_is_sorted(part) for part in condition.conditions)
+    return isinstance(condition, SortBy)
 
 
 @dataclass

@@ -12,6 +12,7 @@ from task_planner_node.search.network import Cell, Kept, Path, replace
 from task_planner_node.search.operators import CompiledOperator
 from task_planner_node.search.partial_plan import (
     Expansion,
+    Limits,
     Motion,
     Moves,
     Position,
@@ -28,8 +29,9 @@ if TYPE_CHECKING:
 class Motions:
     """Each destination and path that the motion planner finds is a choice of its own."""
 
-    def __init__(self, search: Search, state: State, geometry: Geometry) -> None:
+    def __init__(self, search: Search, state: State, geometry: Geometry, limits: Limits) -> None:
         self._search = search
+        self._optimise = limits.optimise
         self._state = state
         self._geometry = geometry
 
@@ -123,9 +125,10 @@ class Motions:
         expansion.motion = Motion(price, request.text, where.start, answer)
         self._search.log.append(expansion)
         lineage = answer.end if answer.assigned else where.lineage
+        met = where.met | {request.text} if self._optimise else where.met
         return (
             replace(network, path, cell[1], to_front=True) if path else cell[1],
-            Whereabouts(answer.end, lineage, where.length + answer.length),
+            Whereabouts(answer.end, lineage, where.length + answer.length, met),
             cost + price + answer.length,
             rest_cost - operator.least_cost,
             actions if operator.internal else actions + 1,

@@ -52,12 +52,14 @@ class Motion:
 class Whereabouts:
     """Where the robots stand, and how far [m] they went.
 
-    ``lineage`` is the attitude that was last assigned.
+    ``lineage`` is the attitude that was last assigned; ``met`` are the geometric preconditions that were met so far,
+    when optimising.
     """
 
     start: Token
     lineage: Token
     length: float
+    met: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)

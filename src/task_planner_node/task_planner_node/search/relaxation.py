@@ -64,12 +64,44 @@ def prove_dead(
         state.most_work = inf
 
 
+def needs(
+    domain: CompiledDomain,
+    state: State,
+    geometry: Geometry,
+    tasks: Iterable[Task],
+    text: str,
+) -> bool:
+    """Whether ``tasks`` cannot all be done from ``state`` on without meeting the geometric preconditions ``text``."""
+    wanted = list(dict.fromkeys(tasks))
+    if not all(ground(task) for task in wanted):
+        return False
+    mark = state.mark()
+    state.relaxed = True
+    state.most_work = state.work + MOST_WORK
+    try:
+        relaxation = _Relaxation(domain, state, geometry, None, text)
+        relaxation.explore(wanted)
+        return bool(relaxation.reasons(wanted))
+    except (TooMuchWork, RecursionError, MissionError, TermRefused):
+        return False
+    finally:
+        state.undo(mark)
+        state.relaxed = False
+        state.most_work = inf
+
+
 class _Relaxation:
     """The fixed point of facts that may become true and of decompositions that may be applied."""
 
     def __init__(
-        self, domain: CompiledDomain, state: State, geometry: Geometry, lineage: Token | None
+        self,
+        domain: CompiledDomain,
+        state: State,
+        geometry: Geometry,
+        lineage: Token | None,
+        without: str = '',
     ) -> None:
+        self._without = without
         self.assigns = False
         self._domain = domain
         self._state = state
@@ -112,7 +144,10 @@ class _Relaxation:
                 fact for fact in operator.adds(self._state, frame) if fact[0] not in PROTECTIONS
             ]
             if operator.text is not None:
-                nogood = self._geometry.lasting_nogood(operator.text(frame), self._lineage)
+                text = operator.text(frame)
+                if text == self._without:
+                    continue
+                nogood = self._geometry.lasting_nogood(text, self._lineage)
                 if nogood is not None:
                     self._blocked.setdefault(task, nogood)
                     for fact in adds:

@@ -24,6 +24,24 @@ def recursive_names(methods: Methods) -> frozenset[str]:
     return frozenset(recursive)
 
 
+def names_above(methods: Methods, below: frozenset[str]) -> frozenset[str]:
+    """The names of tasks that may be decomposed into some of those ``below``, and these."""
+    above: dict[str, list[str]] = {}
+    for name, found in methods.items():
+        for task in {
+            task for method in found for branch in method.branches for task in branch.tasks
+        }:
+            above.setdefault(task, []).append(name)
+    names: set[str] = set()
+    agenda = list(below)
+    while agenda:
+        name = agenda.pop()
+        if name not in names:
+            names.add(name)
+            agenda.extend(above.get(name, ()))
+    return frozenset(names)
+
+
 def _components(below: Mapping[str, Sequence[str]]) -> Iterator[list[str]]:
     """Strongly connected components (Tarjan), without recursion."""
     number: dict[str, int] = {}

@@ -4,32 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from task_planner_node.search.candidates import Bindings, Candidates
 from task_planner_node.search.conditions import Found
 from task_planner_node.search.dead_ends import not_satisfied
 from task_planner_node.search.domain import CompiledDomain, Start
 from task_planner_node.search.geometry import Geometry
-from task_planner_node.search.guidance import leading_text
 from task_planner_node.search.loosely import Loosely
 from task_planner_node.search.methods import CompiledBranch, CompiledMethod
 from task_planner_node.search.motions import Motions
 from task_planner_node.search.network import (
     Cell,
-    Immediate,
     Kept,
-    Network,
-    Parallel,
     Path,
     Task,
     all_tasks,
-    first_cells,
     replace,
-    urgent,
 )
 from task_planner_node.search.operators import CompiledOperator
 from task_planner_node.search.partial_plan import (
-    Chosen,
     Expansion,
     Limits,
     Motion,
@@ -78,8 +72,9 @@ class Ways:
         self._geometry = geometry
         self._limits = limits
         self._log = search.log
-        self._motions = Motions(search, state, geometry)
+        self._motions = Motions(search, state, geometry, limits)
         self._loosely = Loosely(domain, state)
+        self._candidates = Candidates(search, domain, beginning, state, geometry, limits)
 
     def beginnings(self, where: Whereabouts) -> Moves:
         """The networks of the problem."""
@@ -90,76 +85,9 @@ class Ways:
             rest = sum(least.get(task[0], 0.0) for task in all_tasks(network))
             yield network, where, 0.0, rest, 0, False, None
 
-    # Which task next
-
     def candidates(self, position: Position) -> Way:
         """The tasks that may come next, in the order to try."""
-        if self._domain.geometric:
-            return self._advised(position)
-        network: Any = position[0]
-        front, path = _front(network)
-        chosen = _choosing(position, Chosen(front, path, focus=True))
-        if not isinstance(front[0], Immediate):
-            return self._in_order(position, chosen, first=not network[0].urgent)
-        return chosen if network[0].urgent == 1 else self._in_order(position, chosen, first=True)
-
-    def _in_order(self, position: Position, chosen: Position, first: bool) -> Moves:
-        """All candidates, ``chosen`` before the others if it is the ``first``."""
-        network: Any = position[0]
-        if first:
-            yield chosen
-        for cell, path in urgent(first_cells(network))[first:]:
-            yield _choosing(position, Chosen(cell, path, focus=True))
-
-    def _advised(self, position: Position) -> Moves:
-        network, where, focused = position[0], position[1], position[5]
-        candidates = urgent(first_cells(network))
-        for cell, path in candidates:
-            task = cell[0]
-            if task[0] in self._domain.operators:
-                continue
-            fitting = self._fitting(task)
-            if not fitting:
-                reason = no_definition_fits(task, primitive=False)
-                self._search.dead_ends.add(task, 'head', reason)
-                return
-            if len(fitting) == 1 and fitting[0].unconditional:
-                # What it decomposes into depends on nothing that another task could change.
-                yield _choosing(position, Chosen(cell, path, focus=False))
-                return
-        if focused or len(candidates) == 1:
-            yield _choosing(position, Chosen(*candidates[0], focus=True))
-            candidates = candidates[1:]
-        version = self._geometry.version
-        ordered = self._in_advised_order(where, candidates, ask=not focused)
-        if self._geometry.version != version:
-            yield ()
-        for cell, path in ordered:
-            yield _choosing(position, Chosen(cell, path, focus=True))
-
-    def _fitting(self, task: Task) -> list[CompiledMethod]:
-        if ground(task):
-            methods = self._domain.methods.get(task[0], ())
-            return [method for method in methods if method.bind(task) is not None]
-        return self._domain.methods_for(task)
-
-    def _in_advised_order(
-        self, where: Whereabouts, candidates: list[tuple[Cell, Path]], ask: bool
-    ) -> list[tuple[Cell, Path]]:
-        """Candidates whose first motion is known change places among themselves, the others stay."""
-        if not self._limits.use_advice:
-            return candidates
-        texts = [leading_text(self._domain, self._state, cell[0]) for cell, _ in candidates]
-        known = [text for text in texts if text is not None]
-        ranks = self._geometry.ranks(where.start, where.lineage, known, ask)
-        places = [i for i, text in enumerate(texts) if text is not None and text in ranks]
-        best_first = sorted(places, key=lambda i: ranks[texts[i] or ''])
-        ordered = list(candidates)
-        for place, chosen in zip(places, best_first, strict=True):
-            ordered[place] = candidates[chosen]
-        return ordered
-
-    # By which operator or method
+        return self._candidates.tasks(position)
 
     def expand(self, position: Position, cell: Cell, path: Path, focus: bool) -> Way:
         """What may be done with a task."""
@@ -300,6 +228,10 @@ class Ways:
         self, position: Position, cell: Cell, path: Path, focus: bool, begun: _Begun
     ) -> Moves:
         """The solutions from the one on that was begun."""
+        for branch, frame in self._candidates.bindings(position[1], self._bindings(cell, begun)):
+            yield self._grow(position, cell, path, focus, branch, frame)
+
+    def _bindings(self, cell: Cell, begun: _Begun) -> Bindings:
         state = self._state
         found: Found | None = begun.found
         applied = False
@@ -318,11 +250,11 @@ class Ways:
                     trial = begun.trial
                 satisfied = found is True
                 if found is True:
-                    yield self._grow(position, cell, path, focus, branch, trial)
+                    yield branch, trial
                 elif found is not False:
                     for _ in found:
                         satisfied = True
-                        yield self._grow(position, cell, path, focus, branch, trial)
+                        yield branch, trial
                 found = None
                 if satisfied:
                     applied = True
@@ -383,18 +315,3 @@ class Ways:
             )
 
         self._search.dead_ends.add(task, 'method', why)
-
-
-def _front(network: Network) -> tuple[Cell, Path]:
-    """The first of the tasks that may come next."""
-    path: list[int] = []
-    part: Any = network
-    while isinstance(part[0], Parallel):
-        index = part[0].open()[0]
-        path.append(index)
-        part = part[0].branches[index]
-    return part, tuple(path)
-
-
-def _choosing(position: Position, chosen: Chosen) -> Position:
-    return (*position[:6], chosen)
