@@ -216,6 +216,7 @@ def _options(request: PlanTasks.Goal, parameters: Parameters) -> Options:
         wanted.optimise,
         wanted.use_advice,
         wanted.plans or 1,
+        parameters.memory_limit,
     )
 
 

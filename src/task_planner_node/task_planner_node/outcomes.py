@@ -25,7 +25,10 @@ class Outcome(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How a mission is searched; ``time_budget`` in seconds, ``plans`` is how many are wanted."""
+    """How a mission is searched; ``time_budget`` in seconds, ``plans`` is how many are wanted.
+
+    ``memory_limit`` [MiB] is what the search may take beyond what the process holds at its beginning.
+    """
 
     time_budget: float = 60.0
     max_alternatives: int = 4
@@ -33,6 +36,7 @@ class Options:
     optimise: bool = False
     use_advice: bool = True
     plans: int = 1
+    memory_limit: int = 4096
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,6 +17,7 @@ from task_planner_node.errors import (
 )
 from task_planner_node.explanation import explain_failure, explain_solution, place_refusal
 from task_planner_node.language.model import Domain, Problem, show
+from task_planner_node.memory import resident
 from task_planner_node.mission import MissionText, check_and_compile, read_mission
 from task_planner_node.oracle import INVALID_CODES, Oracle, Token
 from task_planner_node.outcomes import Options, Outcome, Progress, Result
@@ -52,6 +53,7 @@ class Planner:
         self._report = report
         self._began = time.monotonic()
         self._reported = -1.0
+        self._held = resident()
         self._statistics = Statistics()
         self._search: Search | None = None
         self._told: Plan | None = None
@@ -174,7 +176,8 @@ class Planner:
             raise Cancelled
         if time.monotonic() - self._began > self._options.time_budget:
             raise LimitReached(f'the time budget of {self._options.time_budget:g} s is spent')
-        self._say('searching')
+        if self._say('searching') and resident() - self._held > self._options.memory_limit * 2**20:
+            raise LimitReached(f'the memory limit of {self._options.memory_limit} MiB is reached')
 
     def _improved(self, best: Plan | None) -> Plan | None:
         """The best plan, if it was not told yet."""
@@ -183,15 +186,16 @@ class Planner:
         self._told = best
         return best
 
-    def _say(self, phase: str, force: bool = False) -> None:
+    def _say(self, phase: str, force: bool = False) -> bool:
+        """Report progress; whether it was time for that."""
         elapsed = time.monotonic() - self._began
         if not force and elapsed - self._reported < PROGRESS_INTERVAL:
-            return
+            return False
         self._reported = elapsed
         problem, state, search = self._problem, self._state, self._search
         if problem is None or state is None or search is None:
             self._report(Progress(phase, elapsed=elapsed))
-            return
+            return True
         statistics = self._statistics
         position = search.position
         best = search.best
@@ -210,3 +214,4 @@ class Planner:
                 self._improved(best),
             )
         )
+        return True

@@ -223,6 +223,16 @@ def test_a_cost_that_is_none_is_an_error(plan: Planned) -> None:
     assert 'the cost of !pay is free' in result.explanation
 
 
+def test_the_memory_limit_ends_a_search(plan: Planned) -> None:
+    domain = """(defdomain d (
+        (:operator (!step ?n) () () ((done ?n)))
+        (:method (count ?n) ((assign ?m (eval (+ ?n 1)))) ((!step ?n) (count ?m)))))"""
+    options = Options(time_budget=600.0, memory_limit=100, max_depth=20_000_000)
+    result = plan(domain, '(defproblem p d () ((count 0)))', None, options)
+    assert result.outcome == Outcome.LIMIT
+    assert 'the memory limit of 100 MiB is reached' in result.explanation
+
+
 def test_deep_axioms_are_evaluated(plan: Planned) -> None:
     domain = """(defdomain d (
         (:- (reach ?a ?b) ((edge ?a ?b)) ((edge ?a ?c) (reach ?c ?b)))

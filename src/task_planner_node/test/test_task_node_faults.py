@@ -278,7 +278,7 @@ def test_a_signal_stops_the_process_without_a_traceback(number: signal.Signals) 
     ('arguments', 'code', 'text'),
     [
         (('--help',), 0, 'examples:'),
-        (('--ros-args', '-p', 'max_depth:=3'), 2, 'from 100 to 2e+06'),
+        (('--ros-args', '-p', 'max_depth:=3'), 2, 'from 100 to 2e+07'),
         (('--ros-args', '-p', 'time_budget:=soon'), 2, "not 'soon'"),
         (('--nonsense',), 2, 'unrecognized'),
     ],
