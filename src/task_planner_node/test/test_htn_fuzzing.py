@@ -12,7 +12,7 @@ from types import FrameType
 
 import pytest
 
-from task_planner_node.errors import MissionError
+from task_planner_node.errors import MissionError, Severity
 from task_planner_node.language import Source, check_mission, read_domain, read_problem, reader
 from task_planner_node.language.reading import MOST_ERRORS
 from task_planner_node.mission import MissionText, check_and_compile, read_mission
@@ -186,6 +186,11 @@ def test_broken_hddl_is_read_or_refused(seed: int, no_motion_planner: Oracle) ->
         '(:operator (!o) () () () ' + '(+ ' * 190 + '1' + ')' * 190 + ')',
         '(:- (a ' + '(' * 190 + ')' * 190 + ') ())',
         '(:method (m) ((call ' + '+ 1 ' * 10_000 + ')) ())',
+        '(:method (m ' + ' '.join(f'?x{i}' for i in range(10_000)) + ') () ())',
+        '(:method (m) () (' + ' '.join(f'(t{i})' for i in range(10_000)) + '))',
+        '(:method (m) (' + ' '.join(f'(p{i})' for i in range(10_000)) + ') ())',
+        '(:operator (!o) () () (' + ' '.join(f'(p ?x{i})' for i in range(10_000)) + '))',
+        ''.join(f'(:operator (!o{i}) () () ())' for i in range(5_000)) + '(:method (m) () ((!o)))',
         '(:method (m' + ' ?x' * 10_000 + ') () ())',
         '(:method (m) ' + '((a)) ((m)) ' * 5_000 + ')',
         '(define (domain d) ' + '(:types a - b b - a) ' * 1000 + ')',
@@ -211,6 +216,18 @@ def test_the_number_of_words_is_limited(monkeypatch: pytest.MonkeyPatch) -> None
     read_domain(Source('t', '(:method (m) () ' + '()' * 495 + ')'))
     with pytest.raises(MissionError, match='t:1:2001: more than 1000 words'):
         read_domain(Source('t', 'x ' * 1001))
+
+
+def test_an_error_is_told_behind_any_number_of_warnings() -> None:
+    ways = ''.join(f'() ((t{i}))' for i in range(3000))
+    domain = f'(:method (m) {ways} () ()) (:method (n) () ((m 1)))'
+    pair = read_mission(MissionText('d', domain), MissionText('p', '(defproblem p () () (m))'))
+    with at_once():
+        remarks = check_mission(*pair)
+    assert [str(r) for r in remarks if r.severity == Severity.ERROR] == [
+        f'd:1:{len(domain) - 6}: m takes 0 arguments, not 1'
+    ]
+    assert len(remarks) == 101
 
 
 def test_hopeless_texts_are_given_up() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from itertools import islice
 
 from task_planner_node.errors import Diagnostic, Severity
 from task_planner_node.language.bindings import check_bindings
@@ -16,20 +17,27 @@ from task_planner_node.language.walk import atoms_of, conditions_in, facts_of, i
 
 __all__ = ['VARIABLE', 'check_mission']
 
+#: More of one kind nobody reads.
+MOST_REMARKS = 100
+
 
 def check_mission(domain: Domain, problem: Problem) -> list[Diagnostic]:
-    """All errors and warnings of a mission, in the order of the texts, the domain's first."""
-    remarks = [
-        *domain.remarks,
-        *problem.remarks,
-        *_check_operators(domain),
-        *check_bindings(domain),
-        *check_singletons(domain),
-        *_check_tasks(domain, problem),
-        *_check_predicates(domain, problem),
-        *_check_domain_name(domain, problem),
-        *_check_objects(domain, problem),
-    ]
+    """The errors and warnings of a mission, in the order of the texts, the domain's first.
+
+    Of each kind there are at most MOST_REMARKS.
+    """
+    checks = (
+        _check_operators(domain),
+        check_bindings(domain),
+        check_singletons(domain),
+        _check_tasks(domain, problem),
+        _check_predicates(domain, problem),
+        _check_domain_name(domain, problem),
+        _check_objects(domain, problem),
+    )
+    remarks = [*domain.remarks, *problem.remarks]
+    for check in checks:
+        remarks += islice(check, MOST_REMARKS)
     order = {domain.source.name: 0}
     return sorted(dict.fromkeys(remarks), key=lambda r: (order.get(r.source, 1), r.line, r.column))
 
@@ -70,31 +78,41 @@ def _check_tasks(domain: Domain, problem: Problem) -> Iterator[Diagnostic]:
         method.head.name
         for method in domain.methods
         for branch in method.branches
-        if not any(_fault(task, arities)[0] for task in tasks_of(branch.tasks))
+        if all(len(task.args) in arities.get(task.name, ()) for task in tasks_of(branch.tasks))
     }
-    for method in domain.methods:
-        for branch in method.branches:
-            for task in tasks_of(branch.tasks):
-                message, hint = _fault(task, arities)
-                if message and (hint or method.head.name not in intact):
-                    yield _at(domain.source, task.node, message + hint)
-                elif message:
-                    yield _warning(domain.source, task, f'{message}: this branch leads nowhere')
     for task in tasks_of(problem.tasks):
         message, hint = _fault(task, arities)
         if message:
             yield _at(problem.source, task.node, message + hint)
+    hints: dict[str, str] = {}
+    useless: list[tuple[Atom, str]] = []
+    for method in domain.methods:
+        for branch in method.branches:
+            for task in tasks_of(branch.tasks):
+                message, hint = _fault(task, arities, hints)
+                if message and (hint or method.head.name not in intact):
+                    yield _at(domain.source, task.node, message + hint)
+                elif message:
+                    useless.append((task, message))
+    for task, message in useless:
+        yield _warning(domain.source, task, f'{message}: this branch leads nowhere')
 
 
-def _fault(task: Atom, arities: dict[str, set[int]]) -> tuple[str, str]:
+def _fault(
+    task: Atom, arities: dict[str, set[int]], hints: dict[str, str] | None = None
+) -> tuple[str, str]:
     """What is wrong with a task, and which one may have been meant; empty if nothing is.
 
     In a method it is an error if another task was probably meant, or if the method's task cannot be done
-    without it.  Otherwise it makes one branch useless.
+    without it.  Otherwise it makes one branch useless.  ``hints`` remembers what was meant by a name; beyond
+    MOST_REMARKS names it is not looked for.
     """
     if task.name not in arities:
         kind = 'operator' if task.name.startswith('!') else 'method'
-        return f'no {kind} is defined for {show(task)}', did_you_mean(task.name, arities)
+        hints = {} if hints is None else hints
+        if task.name not in hints and len(hints) < MOST_REMARKS:
+            hints[task.name] = did_you_mean(task.name, arities)
+        return f'no {kind} is defined for {show(task)}', hints.get(task.name, '')
     if len(task.args) not in arities[task.name]:
         wanted = ' or '.join(str(count) for count in sorted(arities[task.name]))
         return f'{task.name} takes {wanted} arguments, not {len(task.args)}', ''
