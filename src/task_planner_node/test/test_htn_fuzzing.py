@@ -14,6 +14,7 @@ import pytest
 
 from task_planner_node.errors import MissionError, Severity
 from task_planner_node.language import Source, check_mission, read_domain, read_problem, reader
+from task_planner_node.language.checks import MOST_REMARKS
 from task_planner_node.language.reading import MOST_ERRORS
 from task_planner_node.mission import MissionText, check_and_compile, read_mission
 from task_planner_node.oracle import Oracle
@@ -227,7 +228,7 @@ def test_an_error_is_told_behind_any_number_of_warnings() -> None:
     assert [str(r) for r in remarks if r.severity == Severity.ERROR] == [
         f'd:1:{len(domain) - 6}: m takes 0 arguments, not 1'
     ]
-    assert len(remarks) == 101
+    assert len(remarks) == MOST_REMARKS
 
 
 def test_hopeless_texts_are_given_up() -> None:

@@ -15,7 +15,7 @@ from task_planner_node.language.source import Source
 from task_planner_node.language.suggestions import did_you_mean
 from task_planner_node.language.walk import atoms_of, conditions_in, facts_of, is_open, tasks_of
 
-__all__ = ['VARIABLE', 'check_mission']
+__all__ = ['MOST_REMARKS', 'VARIABLE', 'check_mission']
 
 #: More of one kind nobody reads.
 MOST_REMARKS = 100
