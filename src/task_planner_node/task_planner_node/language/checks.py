@@ -8,14 +8,11 @@ from itertools import islice
 from task_planner_node.errors import Diagnostic, Severity
 from task_planner_node.language.bindings import check_bindings
 from task_planner_node.language.model import Atom, Condition, Domain, Operator, Problem, show
-from task_planner_node.language.operators import VARIABLE
 from task_planner_node.language.reader import ListNode, Node, Symbol
 from task_planner_node.language.singletons import check_singletons
 from task_planner_node.language.source import Source
 from task_planner_node.language.suggestions import did_you_mean
 from task_planner_node.language.walk import atoms_of, conditions_in, facts_of, is_open, tasks_of
-
-__all__ = ['MOST_REMARKS', 'VARIABLE', 'check_mission']
 
 #: More of one kind nobody reads.
 MOST_REMARKS = 100
