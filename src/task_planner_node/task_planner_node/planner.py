@@ -15,7 +15,12 @@ from task_planner_node.errors import (
     LimitReached,
     MissionError,
 )
-from task_planner_node.explanation import explain_failure, explain_solution, place_refusal
+from task_planner_node.explanation import (
+    details_of,
+    explain_failure,
+    explain_solution,
+    place_refusal,
+)
 from task_planner_node.language.model import Domain, Problem, show
 from task_planner_node.memory import resident
 from task_planner_node.mission import MissionText, check_and_compile, read_mission
@@ -97,7 +102,7 @@ class Planner:
         self._say('writing', force=True)
         search = self._search
         plans = tuple(search.plans.kept) if search and outcome == Outcome.SOLVED else ()
-        details = '\n'.join([explanation, *(search.dead_ends.lines(1000) if search else [])])
+        details = details_of(explanation, search)
         return Result(outcome, explanation, diagnostics, plans, self._statistics, details)
 
     def _plan(

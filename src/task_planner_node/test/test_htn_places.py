@@ -140,7 +140,12 @@ def test_what_the_motion_planner_does_not_know_is_found_in_the_operator(
             'nothing can make (dock boilr) true; unknown object boilr: no fact speaks of it',
             (3, 22),
         ),
-        ('(dock dock0)', '(bay dock0)', 'nothing can make (dock dock0) true', (3, 4)),
+        (
+            '(dock dock0)',
+            '(bay dock0)',
+            'no fact or effect ever makes (dock dock0) true',
+            (3, 4),
+        ),
         ('(!start_at robot0 dock0)', '', 'nothing can make (started robot0) true', (4, 4)),
     ],
 )

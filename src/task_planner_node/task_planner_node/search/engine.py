@@ -8,11 +8,12 @@ from task_planner_node.errors import LimitReached
 from task_planner_node.language.model import shorten, show
 from task_planner_node.oracle import Token
 from task_planner_node.search.closed import Visited
-from task_planner_node.search.dead_ends import DeadEnd, DeadEnds
+from task_planner_node.search.dead_ends import DeadEnd, DeadEnds, Farthest
 from task_planner_node.search.domain import CompiledDomain, Start
 from task_planner_node.search.geometry import Geometry
 from task_planner_node.search.loosely import shape
 from task_planner_node.search.network import Network, Parallel, Task, all_tasks
+from task_planner_node.search.operators import CompiledOperator
 from task_planner_node.search.partial_plan import (
     Expansion,
     Limits,
@@ -30,6 +31,8 @@ from task_planner_node.search.ways import Ways
 CHECK_INTERVAL = 64
 # A relaxation of the whole mission is examined when this many choices were taken back.
 PATIENCE = 1000
+# So many of the last decompositions and actions of the longest partial plan are kept.
+MOST_NOTED = 200
 # A task is looked for among so many of those that it came from.
 MOST_ANCESTORS = 100
 
@@ -55,6 +58,7 @@ class Search:
         self.dead_ends = DeadEnds()
         self.proofs: dict[Task, DeadEnd] = {}
         self.deepest = 0
+        self.farthest = Farthest()
         self.proven = True
         self.stack: list[Node] = []
         self.position: Position | None = None
@@ -153,6 +157,8 @@ class Search:
             self.stack.clear()
 
     def _undo(self, node: Node) -> None:
+        if self.deepest > self.farthest.actions:
+            self.note_farthest()
         self._state.undo(node.mark)
         del self.log[node.logged :]
         self.visited.close(node)
@@ -167,6 +173,7 @@ class Search:
             network, where, cost, rest_cost, actions, _, chosen = position
             if actions > self.deepest:
                 self.deepest = actions
+                self.dead_ends.latest = None
             if optimise and cost + rest_cost >= plans.bound:
                 return False
             if network is None:
@@ -232,6 +239,17 @@ class Search:
     def give_up(self) -> None:
         """Note that something was left at the last choice without a proof."""
         self.stack[-1].unproven = True
+
+    def note_farthest(self) -> None:
+        """Keep the last actions of the partial plan on the log, and what it could not go on with."""
+        last = tuple(
+            [
+                expansion.task
+                for expansion in self.log[-MOST_NOTED:]
+                if isinstance(expansion.by, CompiledOperator) and not expansion.by.internal
+            ]
+        )
+        self.farthest = Farthest(self.deepest, last, self.dead_ends.latest)
 
     def _look(self, network: Network) -> None:
         self._check()

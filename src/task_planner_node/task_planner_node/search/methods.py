@@ -49,6 +49,11 @@ class CompiledBranch:
     loose: bool
     sorted: bool
 
+    @property
+    def label(self) -> str:
+        """Its name, or the name of its method, or its place in the text."""
+        return self.name or self.method or f'branch {self.numbers[1]} of method {self.numbers[0]}'
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CompiledMethod:

@@ -51,7 +51,7 @@ class Motions:
         if not satisfied:
             failure = operator.condition.first_failure
             self._search.dead_ends.add(
-                task, 'symbolic', lambda: not_satisfied([failure(self._state, frame)])
+                task, 'symbolic', lambda: not_satisfied([('', failure(self._state, frame))])
             )
 
     def answered(

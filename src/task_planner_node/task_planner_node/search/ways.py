@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from task_planner_node.search.candidates import Bindings, Candidates
 from task_planner_node.search.conditions import Found
-from task_planner_node.search.dead_ends import not_satisfied
+from task_planner_node.search.dead_ends import Reason, not_satisfied
 from task_planner_node.search.domain import CompiledDomain, Start
 from task_planner_node.search.geometry import Geometry
 from task_planner_node.search.loosely import Loosely
@@ -292,8 +292,8 @@ class Ways:
     # Why there is no way
 
     def _unsatisfied(self, task: Task, operator: CompiledOperator, frame: Frame) -> None:
-        def reason() -> str:
-            return not_satisfied([operator.condition.first_failure(self._state, frame)])
+        def reason() -> Reason:
+            return not_satisfied([('', operator.condition.first_failure(self._state, frame))])
 
         self._search.dead_ends.add(task, 'symbolic', reason)
 
@@ -305,12 +305,15 @@ class Ways:
             self._search.dead_ends.add(task, 'head', reason)
             return
 
-        def why() -> str:
+        def why() -> Reason:
+            branches = [(branch, frame) for method, frame in fits for branch in method.branches]
             return not_satisfied(
                 [
-                    branch.condition.first_failure(self._state, frame)
-                    for method, frame in fits
-                    for branch in method.branches
+                    (
+                        branch.label if len(branches) > 1 else branch.name or branch.method,
+                        branch.condition.first_failure(self._state, frame),
+                    )
+                    for branch, frame in branches
                 ]
             )
 
