@@ -248,3 +248,19 @@ def test_a_plan_of_a_hundred_thousand_steps_is_found(plan: Planned) -> None:
     result = plan(domain, '(defproblem p d () ((count 100000)))', None, Options(time_budget=600.0))
     assert len(result.steps) == 100_000
     assert result.steps[-1].action == ('!step', '1')
+
+
+def test_what_no_action_changes_is_tested_where_it_is_chosen(plan: Planned) -> None:
+    """Without that the search would take and put back, for each of the pairs."""
+    domain = """(defdomain d (
+        (:operator (!take ?x) () () ((has ?x)))
+        (:operator (!join ?x ?y) ((has ?x)(fits ?x ?y)(not (broken ?y))) () ((joined ?x ?y)))
+        (:method (assemble) ((part ?x)(part ?y)) ((!take ?x) (finish ?x ?y)))
+        (:method (finish ?a ?b) () ((!join ?a ?b)))))"""
+    facts = ' '.join(f'(part p{i})(fits p{i} p{i + 1})(broken p{i})' for i in range(30))
+    result = plan(domain, f'(defproblem p d ({facts} (part p30)) ((assemble)))')
+    assert actions(result) == [['take p29', 'join p29 p30']]
+    assert result.statistics.decompositions < 10
+    broken = plan(domain, f'(defproblem p d ({facts} (part p30)(broken p30)) ((assemble)))')
+    assert broken.outcome == Outcome.NO_PLAN
+    assert broken.statistics.decompositions < 10

@@ -107,14 +107,21 @@ def restoring(slots: Sequence[int], solutions: Begin) -> Begin:
     places = tuple(slots)
 
     def begin(state: State, frame: Frame) -> Found:
+        before = [frame[slot] for slot in places]
         found = solutions(state, frame)
-        return found if found is False else again(found, [frame[slot] for slot in places], frame)
+        if found is False:
+            put(before, frame)
+            return False
+        return again(found, before, frame)
 
     def again(found: Found, before: list[Any], frame: Frame) -> Iterator[None]:
         if found is True:
             yield
         elif found is not False:
             yield from found
+        put(before, frame)
+
+    def put(before: list[Any], frame: Frame) -> None:
         for slot, value in zip(places, before, strict=True):
             frame[slot] = value
 

@@ -24,6 +24,7 @@ from task_planner_node.language.model import (
 from task_planner_node.search.axioms import DerivedPredicate
 from task_planner_node.search.compilation import Compiler
 from task_planner_node.search.conditions import Conjunction
+from task_planner_node.search.early import Early
 from task_planner_node.search.methods import CompiledMethod, Grow, Networks, compile_method
 from task_planner_node.search.network import Network, Task
 from task_planner_node.search.operators import CompiledOperator, compile_operator
@@ -84,6 +85,7 @@ class CompiledDomain:
         self._domain = domain
         self._compiler = compiler = Compiler()
         self._assigning = assigning
+        self._early = Early(domain)
         effects = [e for o in domain.operators for e in (*o.deletes, *o.adds)]
         self._protecting = any(isinstance(effect, Protection) for effect in _flat(effects))
         heads: dict[tuple[str, int], list[Axiom]] = {}
@@ -125,7 +127,7 @@ class CompiledDomain:
 
     def _methods(self, name: str, given: Sequence[bool] | None = None) -> list[CompiledMethod]:
         return [
-            compile_method(method, number, self._compiler, self._domain.source, given)
+            compile_method(method, number, self._compiler, self._domain.source, self._early, given)
             for number, method in enumerate(self._method_texts[name], start=1)
         ]
 

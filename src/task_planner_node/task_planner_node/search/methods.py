@@ -21,6 +21,7 @@ from task_planner_node.language.source import Source
 from task_planner_node.language.walk import variables_of
 from task_planner_node.search.compilation import Compiler
 from task_planner_node.search.conditions import Conjunction
+from task_planner_node.search.early import Early, Literal, literal_atom
 from task_planner_node.search.heads import Bind, Head
 from task_planner_node.search.network import Immediate as ImmediateTask
 from task_planner_node.search.network import Network, constrained, parallel
@@ -38,6 +39,7 @@ class CompiledBranch:
     ``numbers`` counts the method among those for the same task and the branch in the method, from 1.
     ``tasks`` are the names of its tasks in the order of the text; ``loose`` tells whether these may have arguments
     without a value, ``sorted`` whether the order of its solutions is asked for.
+    ``early`` is what a solution of the condition has to meet so that the tasks can be done.
     """
 
     method: str
@@ -48,6 +50,7 @@ class CompiledBranch:
     tasks: tuple[str, ...]
     loose: bool
     sorted: bool
+    early: Conjunction | None
 
     @property
     def label(self) -> str:
@@ -74,6 +77,7 @@ def compile_method(
     number: int,
     compiler: Compiler,
     source: Source,
+    early: Early,
     known: Sequence[bool] | None = None,
 ) -> CompiledMethod:
     """Compile for tasks with values for the ``known`` arguments."""
@@ -95,9 +99,26 @@ def compile_method(
                 tuple(network.tasks),
                 network.loose,
                 _is_sorted(branch.condition),
+                _early(early.literals(branch), compiler, slots, head.bound, bound),
             )
         )
     return CompiledMethod(head.binder(), head, tuple(branches))
+
+
+def _early(
+    literals: Sequence[Literal],
+    compiler: Compiler,
+    slots: Slots,
+    head: set[int],
+    bound: set[int],
+) -> Conjunction | None:
+    """Those of the literals that are bound, and speak of something that the condition chose."""
+    told = []
+    for literal in literals:
+        places = {slots.variable(name) for name in variables_of(literal_atom(literal))}
+        if places <= bound and not places <= head:
+            told.append(literal)
+    return compiler.condition(And(tuple(told)), slots, set(bound)) if told else None
 
 
 def _is_sorted(condition: Condition) -> bool:

@@ -217,7 +217,7 @@ class Ways:
                 found = condition.begin(state, trial)
                 if found is False:
                     continue
-                if found is True and index + 1 == len(methods):
+                if found is True and index + 1 == len(methods) and branch.early is None:
                     return self._grow(position, cell, path, focus, branch, trial)
                 begun = _Begun(methods, index, frame, number, trial, found)
                 return self._solutions(position, cell, path, focus, begun)
@@ -250,11 +250,13 @@ class Ways:
                     trial = begun.trial
                 satisfied = found is True
                 if found is True:
-                    yield branch, trial
+                    if self._promising(cell[0], branch, trial):
+                        yield branch, trial
                 elif found is not False:
                     for _ in found:
                         satisfied = True
-                        yield branch, trial
+                        if self._promising(cell[0], branch, trial):
+                            yield branch, trial
                 found = None
                 if satisfied:
                     applied = True
@@ -284,6 +286,18 @@ class Ways:
         if self._limits.optimise:
             rest_cost += self._growth(task, branch)
         return grown, where, cost, rest_cost, actions, focused, None
+
+    def _promising(self, task: Task, branch: CompiledBranch, frame: Frame) -> bool:
+        """Whether the tasks of a branch can be done as far as nothing ever changes that."""
+        early = branch.early
+        if early is None or early.holds(self._state, frame):
+            return True
+
+        def reason() -> Reason:
+            return not_satisfied([('', early.first_failure(self._state, frame))])
+
+        self._search.dead_ends.add(task, 'early', reason)
+        return False
 
     def _growth(self, task: Task, branch: CompiledBranch) -> float:
         least = self._domain.least_costs
