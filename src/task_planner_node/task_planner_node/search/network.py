@@ -40,7 +40,7 @@ class Parallel:
     """At least two networks, none of them empty, without an order among them.
 
     With ``before`` a branch waits for those with the labels that it names, as long as they are there.  ``urgent``
-    counts the branches that an immediate task may come next in, if none waited.
+    counts the immediate tasks that may come next, if no branch waited.
     """
 
     __slots__ = ('before', 'branches', 'key', 'labels', 'urgent')
@@ -79,9 +79,9 @@ def cell(first: Task | Parallel, rest: Network, parent: object = None, place: in
     return (first, rest, parent, place, hash((key, rest[4] if rest is not None else 0)))
 
 
-def _urgent(branch: Cell) -> bool:
+def _urgent(branch: Cell) -> int:
     first = branch[0]
-    return first.urgent > 0 if isinstance(first, Parallel) else type(first) is Immediate
+    return first.urgent if isinstance(first, Parallel) else isinstance(first, Immediate)
 
 
 def parallel(branches: Sequence[Network], rest: Network) -> Network:
