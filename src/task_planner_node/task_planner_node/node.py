@@ -32,6 +32,7 @@ from task_planner_node.conversions import (
     token_from_states,
 )
 from task_planner_node.errors import Diagnostic
+from task_planner_node.explanation import FORMATS, written
 from task_planner_node.language.functions import PluginError, load_plugins
 from task_planner_node.motion_planner_client_node import MotionPlannerClient, RemoteOracle
 from task_planner_node.outcomes import Options, Outcome, Progress, Result
@@ -195,8 +196,13 @@ class TaskPlannerNode(Node):
 
     def _explain(self, request: Explain.Request, response: Explain.Response) -> Explain.Response:
         mission = request.mission or next(reversed(self._details), '')
-        response.available = mission in self._details
-        response.text = self._details.get(mission, '')
+        plan = self._plans.get(mission)
+        if not request.format:
+            response.available = mission in self._details
+            response.text = self._details.get(mission, '')
+        elif plan is not None and request.format in FORMATS:
+            response.available = True
+            response.text = written(plan.tree, request.format)
         return response
 
 

@@ -153,9 +153,9 @@ class MissionClient(Node):
         ]
         return wait(self.send(mission, *sources).get_result_async()).result
 
-    def why(self, mission: str) -> Any:
+    def why(self, mission: str, form: str = '') -> Any:
         assert self.explain.wait_for_service(PATIENCE)
-        return wait(self.explain.call_async(Explain.Request(mission=mission)))
+        return wait(self.explain.call_async(Explain.Request(mission=mission, format=form)))
 
 
 @pytest.fixture
@@ -191,6 +191,10 @@ def test_without_a_motion_planner_the_mission_is_unavailable_and_the_next_one_is
     assert client.why('').text == client.why('bad').text
     assert 'not running' in client.why('m').text
     assert not client.why('nobody').available
+    assert client.why('symbolic', 'tree').text == '1. (!a)\n'
+    assert client.why('symbolic', 'svg').text.startswith('<svg ')
+    for mission, form in (('symbolic', 'png'), ('bad', 'tree'), ('m', 'json')):
+        assert not client.why(mission, form).available
 
 
 def test_the_answers_of_the_motion_planner_are_passed_on_unopened(client: MissionClient) -> None:
