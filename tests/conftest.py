@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from support.missions import ROVER, Run, run_mission
-from support.processes import started
+from tests.support.missions import ROVER, Run, run_mission
+from tests.support.processes import started
 
 
 @pytest.fixture(scope='session', autouse=True)

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from support.missions import ROVER
-from support.processes import geohtn
+from tests.support.missions import ROVER
+from tests.support.processes import geohtn
 
 #: [bytes] of the oversized file.
 HUGE = 50 * 1024 * 1024

@@ -7,7 +7,7 @@ import math
 import pytest
 import shapely
 
-from support.vehicle import Pose, Vehicle, motion_faults
+from tests.support.vehicle import Pose, Vehicle, motion_faults
 
 CAR = {'model': 'car', 'wheelbase': 2.0, 'max_steering_angle': 0.5, 'radius': 1.0}
 TRUCK = {

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from support.missions import ROOT
-from support.processes import geohtn
+from tests.support.missions import ROOT
+from tests.support.processes import geohtn
 
 DOCUMENTS = [*ROOT.glob('*.md'), *(ROOT / 'docs').rglob('*.md')]
 

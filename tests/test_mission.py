@@ -7,8 +7,8 @@ import re
 
 from shapely import Point
 
-from support.checker import Judge
-from support.missions import ROVER, Run
+from tests.support.checker import Judge
+from tests.support.missions import ROVER, Run
 
 PNG_MAGIC = b'\x89PNG\r\n\x1a\n'
 

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from support.checker import Judge
-from support.missions import ROVER, run_mission
+from tests.support.checker import Judge
+from tests.support.missions import ROVER, run_mission
 
 STEERING = """\
     model: car

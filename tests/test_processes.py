@@ -8,8 +8,8 @@ import signal
 import time
 from pathlib import Path
 
-from support.missions import ROVER
-from support.processes import geohtn, node_command, processes_in_namespace, running, started
+from tests.support.missions import ROVER
+from tests.support.processes import geohtn, node_command, processes_in_namespace, running, started
 
 #: [s] within which Ctrl-C has to end a search.
 STOP_WITHIN = 1.0

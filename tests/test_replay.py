@@ -7,8 +7,8 @@ from pathlib import Path
 
 from mcap.reader import make_reader
 
-from support.missions import Run
-from support.processes import geohtn
+from tests.support.missions import Run
+from tests.support.processes import geohtn
 
 #: What a recording has to hold, with its message type.
 TOPICS = {

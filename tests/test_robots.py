@@ -13,7 +13,7 @@ from motion_planner_node.requests import GeometricAnswer, GeometricRequest
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.robots.registry import MODELS
 from motion_planner_node.world import read_world
-from support.vehicle import ABILITIES, Vehicle, motion_faults, outline_of
+from tests.support.vehicle import ABILITIES, Vehicle, motion_faults, outline_of
 
 YARD = """
 bounds: [0, 0, 80, 60]

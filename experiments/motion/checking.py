@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 import shapely
-from tests.support.vehicle import TOLERANCE, Pose, Vehicle, gap
 
 from experiments.constraints.judge import Judge
 from experiments.constraints.sets import ConstraintSet
@@ -16,6 +15,7 @@ from experiments.motion.goals import AGENT, Array
 from experiments.motion.grounds import inside_obstacles, map_edges
 from experiments.motion.worlds import Place
 from motion_planner_node.robots.motion import Attitude, Motion
+from tests.support.vehicle import TOLERANCE, Pose, Vehicle, gap
 
 _PART = re.compile(r'\(((?:[^()]|\([^()]*\))*)\)')
 

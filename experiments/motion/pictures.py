@@ -15,12 +15,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon
-from tests.support.vehicle import Vehicle
 
 from experiments.motion.asking import planner_for, request_of
 from experiments.motion.goals import AGENT
 from experiments.motion.reference import Known
 from experiments.motion.worlds import Place
+from tests.support.vehicle import Vehicle
 
 #: Answers that are drawn in each world.
 DRAWN = 12

@@ -17,7 +17,7 @@ import yaml
 from shapely import box
 from shapely.geometry.base import BaseGeometry
 
-from support.vehicle import TOLERANCE, Pose, Vehicle, gap, motion_faults, outline_of
+from tests.support.vehicle import TOLERANCE, Pose, Vehicle, gap, motion_faults, outline_of
 
 
 class Judge:

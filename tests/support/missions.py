@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from support.processes import geohtn
+from tests.support.processes import geohtn
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 #: The folder of the paper's mission.

@@ -23,10 +23,10 @@ from geohtn_msgs.srv import SetWorld
 from interface_node.continuity import faults
 from interface_node.conversions import diagnostic_to_message, plan_from_messages
 from interface_node.display_conversions import header
-from interface_node.outputs_node import Outputs
+from interface_node.outputs_node import TREES, Outputs
 from interface_node.parameters import Parameters
 from interface_node.peers_node import Peers, Unavailable
-from interface_node.plan import Plan
+from interface_node.plan import Diagnostic, Plan
 from interface_node.sources import SourceError, directory_of, read_source
 from interface_node.waiting import Cancelled, repeating
 
@@ -66,7 +66,7 @@ class Mission:
         self._world = World()
         self._steps: list[Step] = []
         self._statistics = PlanningStatistics()
-        self._progress = PlanningProgress(best_length=inf)
+        self._progress = PlanningProgress(best_length=inf, best_cost=inf)
 
     def run(self) -> PlanMission.Result:
         """Plan, publish and record the mission, and keep telling that it is being worked on."""
@@ -163,7 +163,8 @@ class Mission:
             self._outputs.await_events(self._statistics, self._around.parameters.recording_timeout)
         self._record('/mission/outcome', outcome)
         self._record('/mission/statistics', self._statistics)
-        self._outputs.write(self._plain(message, outcome), picture=not cancelled)
+        plain = self._plain(message, outcome)
+        self._outputs.write(plain, self._trees(), picture=not cancelled)
         for remark in self._outputs.trouble:
             outcome.explanation = '\n'.join(filter(None, (outcome.explanation, str(remark))))
             outcome.diagnostics = [*outcome.diagnostics, diagnostic_to_message(remark)]
@@ -173,6 +174,22 @@ class Mission:
             statistics=self._statistics,
             files=self._outputs.files,
         )
+
+    def _trees(self) -> dict[str, str]:
+        """How the tasks were decomposed into the plan, if there is one and it is to be written."""
+        around = self._around
+        if not self._steps or not self._outputs.wanted:
+            return {}
+        timeout = around.parameters.service_timeout
+        try:
+            return {
+                form: around.peers.tree(self._id, form, timeout, around.should_stop)
+                for form in TREES
+            }
+        except (Unavailable, Cancelled) as error:
+            missing = str(error) or 'cancelled before the decomposition tree was written'
+            self._outputs.trouble.append(Diagnostic(missing, warning=True))
+            return {}
 
     def _message(self) -> GlobalPlan:
         lengths = [step.answer[0].length for step in self._steps if step.answer]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from time import monotonic
@@ -20,6 +20,8 @@ from interface_node.recording.message_conversions import EVENTS, Recording
 from interface_node.waiting import TimedOut, wait_until
 
 PLAN, PICTURE, RECORDING = 'plan.json', 'mission.png', 'mission.mcap'
+#: The decomposition tree of the plan, by the format of the service ``explain``.
+TREES = {'tree': 'tree.txt', 'json': 'tree.json', 'svg': 'tree.svg'}
 
 
 class Outputs:
@@ -47,6 +49,11 @@ class Outputs:
             except (OSError, ValueError) as error:
                 self._complain(self._directory, error)
                 self._directory = None
+
+    @property
+    def wanted(self) -> bool:
+        """Whether there is a directory to write to."""
+        return self._directory is not None
 
     def record(self, topic: str, message: Any, time: int) -> None:
         """Add a message received at ``time`` [ns since 1970] to the recording."""
@@ -92,8 +99,11 @@ class Outputs:
                 )
             )
 
-    def write(self, plan: Plan, *, picture: bool) -> None:
-        """Complete the recording, and write the plan and, if wanted and possible, the picture."""
+    def write(self, plan: Plan, trees: Mapping[str, str], *, picture: bool) -> None:
+        """Complete the recording, and write the plan, its trees, and, if wanted and possible, the picture.
+
+        ``trees`` has the texts by the formats of TREES; what is empty or missing is not written.
+        """
         if not self._directory:
             return
         with self._lock:
@@ -101,11 +111,19 @@ class Outputs:
                 self._leave(RECORDING, self._complete_recording)
                 self._drop_recording()
         self._leave(PLAN, lambda path: write_file(path, to_text(plan).encode()))
-        if picture and plan.world:
-            self._leave(PICTURE, lambda path: write_file(path, write_picture(plan)))
+        for form, name in TREES.items():
+            tree = trees.get(form)
+            self._leave_or_remove(name, tree.encode if tree else None)
+        drawn = picture and plan.world
+        self._leave_or_remove(PICTURE, (lambda: write_picture(plan)) if drawn else None)
+
+    def _leave_or_remove(self, name: str, content: Callable[[], bytes] | None) -> None:
+        """Write a file, or remove what an earlier mission left."""
+        if content:
+            self._leave(name, lambda path: write_file(path, content()))
         else:
             with suppress(OSError):
-                self._path(PICTURE).unlink(missing_ok=True)
+                self._path(name).unlink(missing_ok=True)
 
     def abandon(self) -> None:
         """Leave no recording behind that was not completed."""

@@ -139,6 +139,21 @@ class Peers:
             )
         return answer.result
 
+    def tree(self, mission: str, form: str, timeout: float, should_stop: ShouldStop) -> str:
+        """How the task planner decomposed the tasks of a mission, in the format ``form`` of ``explain``.
+
+        Empty when it has no such tree; raises Unavailable after ``timeout`` [s].
+        """
+        request = Explain.Request(mission=mission, format=form)
+        try:
+            future = self._explain.call_async(request)
+            answer = wait_for(future, monotonic() + timeout, should_stop)
+        except TimedOut:
+            raise Unavailable(
+                f'task_planner_node did not give the decomposition tree within {timeout:g} s'
+            ) from None
+        return str(answer.text) if answer.available else ''
+
     def _follow(self, result: Any, pulse: Pulse, should_stop: ShouldStop) -> None:
         with pulse:
             while True:

@@ -54,9 +54,15 @@ def read_source(kind: str, path: str, text: str) -> str:
     return text
 
 
+def _file(path: str) -> Path:
+    """The file that ``path`` names; ``problems.lisp#first`` is a problem in the file ``problems.lisp``."""
+    file, mark, _ = path.rpartition('#')
+    return Path(file) if mark and not Path(path).exists() else Path(path)
+
+
 def _read(kind: str, path: str) -> bytes:
-    file = Path(path)
     try:
+        file = _file(path)
         status = file.stat()
         if stat.S_ISDIR(status.st_mode):
             raise _error(path, f'the {kind} is a directory; a file is needed')

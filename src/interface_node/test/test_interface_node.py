@@ -132,8 +132,10 @@ class ObedientTaskPlanner(Node):
         self._server.destroy()
         super().destroy_node()
 
-    def _explain(self, _: Any, response: Any) -> Any:
+    def _explain(self, request: Any, response: Any) -> Any:
         self.released.wait(20)
+        if request.format:
+            response.available, response.text = True, f'{request.format} of {request.mission}'
         return response
 
     def _execute(self, handle: Any) -> PlanTasks.Result:
@@ -248,7 +250,12 @@ def test_a_mission_is_planned_published_and_written(
         'mission.mcap',
         'mission.png',
         'plan.json',
+        'tree.json',
+        'tree.svg',
+        'tree.txt',
     ]
+    assert (out / 'tree.txt').read_text(encoding='utf-8').startswith('tree of ')
+    assert (out / 'tree.svg').read_text(encoding='utf-8').startswith('svg of ')
     document = json.loads((out / 'plan.json').read_text(encoding='utf-8'))
     assert [tuple(step['action']) for step in document['steps']] == [
         step.action for step in sample_plan.steps
@@ -353,13 +360,13 @@ def test_where_nothing_can_be_written_the_plan_is_returned_all_the_same(
     assert str(tmp_path / where) in result.outcome.explanation
 
 
-@pytest.mark.parametrize('name', ['plan.json', 'mission.png', 'mission.mcap'])
+@pytest.mark.parametrize('name', ['plan.json', 'mission.png', 'mission.mcap', 'tree.svg'])
 def test_a_file_that_cannot_be_written_does_not_hinder_the_others(
     team: Team, tmp_path: Path, name: str
 ) -> None:
     (tmp_path / name).mkdir()
     result = team.client.plan(output_directory=str(tmp_path)).result
-    names = {'plan.json', 'mission.png', 'mission.mcap'}
+    names = {'plan.json', 'mission.png', 'mission.mcap', 'tree.txt', 'tree.json', 'tree.svg'}
     assert {Path(file).name for file in result.files} == names - {name}
     assert {file.name for file in tmp_path.iterdir()} == names
     (remark,) = result.outcome.diagnostics
@@ -374,7 +381,7 @@ def test_a_recording_without_all_events_is_a_warning(team: Team, tmp_path: Path)
     (remark,) = result.outcome.diagnostics
     assert remark.severity == msg.Diagnostic.WARNING
     assert 'it holds 0 of 3 answers' in remark.message
-    assert len(result.files) == 3
+    assert len(result.files) == 6
 
 
 def test_a_parameter_is_changed_while_the_node_runs(interface: InterfaceNode) -> None:

@@ -21,7 +21,7 @@ from std_msgs.msg import Header
 from motion_planner_node.errors import MotionPlannerError
 from motion_planner_node.map_conversions import map_from_msg, map_to_msg
 from motion_planner_node.world.model import OccupancyMap
-from support.motion_planner import DEADLINE, Asker, start_node, wait_until_ready
+from tests.support.motion_planner import DEADLINE, Asker, start_node, wait_until_ready
 
 ROBOT = (
     'robots: {rover0: {model: car, wheelbase: 1, max_steering_angle: 0.5, radius: 0.5, speed: 1}}\n'

@@ -12,7 +12,7 @@ from geohtn_msgs import msg, srv
 from rcl_interfaces.srv import GetParameters
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
-from support.motion_planner import DEADLINE, ROVER, START, Asker, start_node, wait_until_ready
+from tests.support.motion_planner import DEADLINE, ROVER, START, Asker, start_node, wait_until_ready
 
 TEXT = ROVER.read_text(encoding='utf-8')
 OTHER = TEXT.replace('location8', 'location9')

@@ -16,7 +16,7 @@ from geohtn_msgs import msg, srv
 from rcl_interfaces.srv import DescribeParameters, SetParameters
 from rclpy.parameter import Parameter
 
-from support.motion_planner import (
+from tests.support.motion_planner import (
     DEADLINE,
     DOMAIN,
     PACKAGE,

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from math import isfinite
+
 from geohtn_msgs.action import PlanTasks
 from geohtn_msgs.msg import (
     AdviceAnswer,
@@ -10,6 +13,7 @@ from geohtn_msgs.msg import (
     PlanningProgress,
     PlanningStatistics,
     SourceText,
+    TaskPlan,
 )
 from geohtn_msgs.msg import CandidateAdvice as CandidateAdviceMessage
 from geohtn_msgs.msg import Diagnostic as DiagnosticMessage
@@ -20,10 +24,11 @@ from task_planner_node.errors import Diagnostic, GeometryFailed, Severity
 from task_planner_node.mission import MissionText
 from task_planner_node.oracle import Advice, Answer, CandidateAdvice, Scope, Status, Token
 from task_planner_node.outcomes import Progress, Result
-from task_planner_node.search.partial_plan import Step
+from task_planner_node.search.plans import Plan, Step
 from task_planner_node.search.statistics import Statistics
 
 MAX_UINT32 = 2**32 - 1
+MOST_TOLD = 1000
 
 
 def token_from_states(states: list[AgentState]) -> Token:
@@ -73,6 +78,7 @@ def _candidate(message: CandidateAdviceMessage) -> CandidateAdvice:
         int(message.code),
         message.message,
         tuple(message.objects),
+        max(0.0, float(message.lower_bound)) if isfinite(message.lower_bound) else 0.0,
     )
 
 
@@ -148,7 +154,21 @@ def progress_to_message(progress: Progress) -> PlanningProgress:
         depth=progress.depth,
         current_length=progress.current_length,
         best_length=progress.best_length,
+        best_cost=progress.best_cost,
+        improved=[f'({" ".join(action)})' for action in _actions(progress.improved)],
         elapsed=progress.elapsed,
+    )
+
+
+def _actions(plan: Plan | None) -> Iterable[tuple[str, ...]]:
+    """The actions of an improved plan; a very long one is not told on the way."""
+    return plan.actions if plan is not None and len(plan.actions) <= MOST_TOLD else ()
+
+
+def plan_to_message(plan: Plan) -> TaskPlan:
+    """One of several plans."""
+    return TaskPlan(
+        steps=[step_to_message(step) for step in plan.steps], cost=plan.cost, length=plan.length
     )
 
 
@@ -161,5 +181,6 @@ def result_to_message(result: Result) -> PlanTasks.Result:
             diagnostics=[diagnostic_to_message(d) for d in result.diagnostics],
         ),
         steps=[step_to_message(step) for step in result.steps],
+        others=[plan_to_message(plan) for plan in result.plans[1:]],
         statistics=statistics_to_message(result.statistics),
     )

@@ -7,7 +7,15 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from task_planner_node.errors import Diagnostic, GeometryUnavailable, MissionError, Severity
-from task_planner_node.language import check_mission, load_source, read_domain, read_problem
+from task_planner_node.hddl import is_hddl, read_hddl
+from task_planner_node.language import (
+    Spelling,
+    check_mission,
+    load_source,
+    read_domain,
+    read_problem,
+    split_name,
+)
 from task_planner_node.language.model import Domain, Problem
 from task_planner_node.language.reader import ListNode, Node, Symbol, first_word
 from task_planner_node.oracle import Oracle
@@ -18,7 +26,10 @@ T = TypeVar('T')
 
 @dataclass(frozen=True, slots=True)
 class MissionText:
-    """Where a domain or a problem comes from: its text, or the file at ``path`` when that is empty."""
+    """Where a domain or a problem comes from: its text, or the file at ``path`` when that is empty.
+
+    One of several problems in it is chosen by its name behind the path: ``problems.lisp#first``.
+    """
 
     path: str = ''
     text: str = ''
@@ -34,17 +45,25 @@ class Mission:
 
 
 def read_mission(domain: MissionText, problem: MissionText) -> tuple[Domain, Problem]:
-    """Read both texts; raises MissionError with what is wrong in either of them."""
-    errors: list[Diagnostic] = []
-    read_one = _attempt(
-        errors, lambda: read_domain(load_source('domain', domain.path, domain.text))
-    )
-    read_two = _attempt(
-        errors, lambda: read_problem(load_source('problem', problem.path, problem.text))
-    )
-    if read_one is None or read_two is None:
-        raise MissionError(errors)
-    return read_one, read_two
+    """Read both texts; raises MissionError with what is wrong in either of them.
+
+    Texts that begin with ``(define`` are HDDL.  The problem is read first, so that labels are spelt as in its facts.
+    """
+    of_domain: list[Diagnostic] = []
+    of_problem: list[Diagnostic] = []
+    path, chosen = split_name(problem.path)
+    text = _attempt(of_domain, lambda: load_source('domain', domain.path, domain.text))
+    task = _attempt(of_problem, lambda: load_source('problem', path, problem.text))
+    if text is not None and task is not None:
+        if is_hddl(text) or is_hddl(task):
+            return read_hddl(text, task)
+        spelling = Spelling()
+        read_two = _attempt(of_problem, lambda: read_problem(task, spelling, chosen))
+        name = read_two.domain_name if read_two else ''
+        read_one = _attempt(of_domain, lambda: read_domain(text, spelling, name))
+        if read_one is not None and read_two is not None:
+            return read_one, read_two
+    raise MissionError([*of_domain, *of_problem])
 
 
 def _attempt(errors: list[Diagnostic], read: Callable[[], T]) -> T | None:

@@ -27,10 +27,12 @@ from task_planner_node.errors import Cancelled, GeometryUnavailable, LimitReache
 from task_planner_node.oracle import Advice, Answer, Query, TextCheck, Token
 from task_planner_node.parameters import Parameters
 
-POLL = 0.05
+# [s] between two looks at the mission, and without the service until it counts as gone.
+POLL = 0.02
+LOST = 0.5
 #: Looks between two questions whether the motion planner is still there, and questions without an
 #: answer after which it is given up: it answers in milliseconds while it works on a request.
-LOOKS, SILENT_QUESTIONS = 10, 8
+LOOKS, SILENT_QUESTIONS = 25, 8
 #: A text that is checked in no time.
 QUESTION = CheckPreconditions.Request()
 
@@ -122,21 +124,29 @@ class RemoteOracle:
 
     def satisfy(self, query: Query) -> Answer:
         """Oracle.satisfy."""
+        response = self._call(self.client.satisfy, self._request(query))
+        return answer_from_message(response.answer)
+
+    def satisfy_together(self, queries: Sequence[Query]) -> Sequence[Answer]:
+        """BatchOracle.satisfy_together: all requests are in flight at once, as replicas of the node can use."""
+        requests = [self._request(query) for query in queries]
+        responses = self._call_together(self.client.satisfy, requests)
+        return [answer_from_message(response.answer) for response in responses]
+
+    def _request(self, query: Query) -> SatisfyPreconditions.Request:
         request = GeometricRequest(
             request_id=self._request_id(),
             mission=self.mission,
             action=list(query.action),
             start=states_from_token(query.start),
             preconditions=query.preconditions,
+            behaviour=query.behaviour,
             alternative=query.alternative,
             world_revision=self.world_revision,
             seed=self.seed,
             time_budget=self.parameters.request_time_budget,
         )
-        response = self._call(
-            self.client.satisfy, SatisfyPreconditions.Request(request=request), request.request_id
-        )
-        return answer_from_message(response.answer)
+        return SatisfyPreconditions.Request(request=request)
 
     def advise(self, start: Token, preconditions: Sequence[str]) -> Advice:
         """Oracle.advise."""
@@ -149,21 +159,33 @@ class RemoteOracle:
             world_revision=self.world_revision,
             seed=self.seed,
         )
-        response = self._call(
-            self.client.advise, Advise.Request(request=request), request.request_id
-        )
+        response = self._call(self.client.advise, Advise.Request(request=request))
         return advice_from_message(response.answer)
 
     def _request_id(self) -> str:
         """An id that no other request has, for it may have to be cancelled."""
         return f'{self.mission}:{self._name}:{next(self._numbers)}'
 
-    def _call(self, client: Client, request: Any, request_id: str = '') -> Any:
+    def _call(self, client: Client, request: Any) -> Any:
+        return self._call_together(client, [request])[0]
+
+    def _call_together(self, client: Client, requests: Sequence[Any]) -> list[Any]:
+        """The responses; what is not waited for any more is cancelled."""
         self._wait_for_service(client)
+        futures = [client.call_async(request) for request in requests]
+        try:
+            return [self._await(client, future, len(requests)) for future in futures]
+        finally:
+            for request, future in zip(requests, futures, strict=True):
+                if not future.done():
+                    client.remove_pending_request(future)
+                    self._cancel(request)
+
+    def _await(self, client: Client, future: Any, waiting: int) -> Any:
+        """The response, of ``waiting`` ones that the motion planner may give one after the other."""
         done = threading.Event()
-        future = client.call_async(request)
         future.add_done_callback(lambda _: done.set())
-        patience = self.parameters.request_time_budget + self.parameters.service_timeout
+        patience = waiting * self.parameters.request_time_budget + self.parameters.service_timeout
         began = time.monotonic()
         lost = began
         pulse = Pulse(self.client.check)
@@ -173,18 +195,20 @@ class RemoteOracle:
                 now = time.monotonic()
                 if client.service_is_ready():
                     lost = now
-                if now - began > patience or now - lost > POLL * 10 or not pulse.beats():
+                if now - began > patience or now - lost > LOST or not pulse.beats():
                     raise GeometryUnavailable(
                         f'the motion planner (service {client.srv_name}) did not answer within '
                         f'{now - began:.1f} s: it is stuck or was stopped'
                     )
         finally:
             pulse.close()
-            if not done.is_set():
-                client.remove_pending_request(future)
-                if request_id and self.client.cancel.service_is_ready():
-                    self.client.cancel.call_async(CancelRequest.Request(request_id=request_id))
         return future.result()
+
+    def _cancel(self, request: Any) -> None:
+        """Tell the motion planner not to work on ``request``, where it has an id."""
+        if hasattr(request, 'request') and self.client.cancel.service_is_ready():
+            request_id = request.request.request_id
+            self.client.cancel.call_async(CancelRequest.Request(request_id=request_id))
 
     def _wait_for_service(self, client: Client) -> None:
         began = time.monotonic()

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import signal
 import sys
 import threading
 import time
 import traceback
 from collections import OrderedDict
 from collections.abc import Callable, Sequence
-from types import FrameType
+from typing import TypeVar
 
 import rclpy
 from geohtn_msgs.action import PlanTasks
@@ -30,8 +29,11 @@ from task_planner_node.conversions import (
     mission_text,
     progress_to_message,
     result_to_message,
+    token_from_states,
 )
 from task_planner_node.errors import Diagnostic
+from task_planner_node.explanation import FORMATS, written
+from task_planner_node.language.functions import PluginError, load_plugins
 from task_planner_node.motion_planner_client_node import MotionPlannerClient, RemoteOracle
 from task_planner_node.outcomes import Options, Outcome, Progress, Result
 from task_planner_node.parameters import (
@@ -41,7 +43,11 @@ from task_planner_node.parameters import (
     read_time_budget,
 )
 from task_planner_node.planner import Planner
+from task_planner_node.search.plans import Plan
+from task_planner_node.search.repair import Interrupted
+from task_planner_node.signals import interrupt_on_signals
 
+T = TypeVar('T')
 NAME = 'task_planner_node'
 REMEMBERED = 10
 HELP = f"""\
@@ -79,6 +85,7 @@ class TaskPlannerNode(Node):
         self.stopping = threading.Event()
         self._turn = threading.Lock()
         self._details: OrderedDict[str, str] = OrderedDict()
+        self._plans: OrderedDict[str, Plan] = OrderedDict()
         self._motion_planner = MotionPlannerClient(context)
         group = ReentrantCallbackGroup()
         self._server = ActionServer(
@@ -154,15 +161,30 @@ class TaskPlannerNode(Node):
             time.monotonic() + options.time_budget,
             should_stop,
         )
+        interrupted = None
+        if request.resumes:
+            plan = self._plans.get(request.resumes)
+            if plan is None:
+                message = (
+                    f'no plan of a mission {request.resumes} to go on with: the node remembers the last '
+                    f'{REMEMBERED} missions that it solved'
+                )
+                return Result(Outcome.INVALID, message, (Diagnostic(message),))
+            interrupted = Interrupted(plan, request.executed)
         planner = Planner(oracle, options, should_stop, report)
-        return planner.plan(mission_text(request.domain), mission_text(request.problem))
+        result = planner.plan(
+            mission_text(request.domain),
+            mission_text(request.problem),
+            token_from_states(request.start),
+            interrupted,
+        )
+        if result.plans:
+            _remember(self._plans, request.mission, result.plans[0])
+        return result
 
     def _finish(self, goal: ServerGoalHandle, result: Result) -> PlanTasks.Result:
         mission = goal.request.mission
-        self._details.pop(mission, None)
-        self._details[mission] = result.details or result.explanation
-        while len(self._details) > REMEMBERED:
-            self._details.popitem(last=False)
+        _remember(self._details, mission, result.details or result.explanation)
         self.get_logger().info(f'mission {mission}: {result.outcome.name}: {result.explanation}')
         if goal.is_cancel_requested:
             goal.canceled()
@@ -174,9 +196,21 @@ class TaskPlannerNode(Node):
 
     def _explain(self, request: Explain.Request, response: Explain.Response) -> Explain.Response:
         mission = request.mission or next(reversed(self._details), '')
-        response.available = mission in self._details
-        response.text = self._details.get(mission, '')
+        plan = self._plans.get(mission)
+        if not request.format:
+            response.available = mission in self._details
+            response.text = self._details.get(mission, '')
+        elif plan is not None and request.format in FORMATS:
+            response.available = True
+            response.text = written(plan.tree, request.format)
         return response
+
+
+def _remember(memory: OrderedDict[str, T], mission: str, value: T) -> None:
+    memory.pop(mission, None)
+    memory[mission] = value
+    while len(memory) > REMEMBERED:
+        memory.popitem(last=False)
 
 
 def _options(request: PlanTasks.Goal, parameters: Parameters) -> Options:
@@ -187,6 +221,8 @@ def _options(request: PlanTasks.Goal, parameters: Parameters) -> Options:
         parameters.max_depth,
         wanted.optimise,
         wanted.use_advice,
+        wanted.plans or 1,
+        parameters.memory_limit,
     )
 
 
@@ -197,25 +233,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
         prog=NAME, description=HELP, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.parse_args(remove_ros_args(words)[1:])
-    stop = threading.Event()
-
-    def on_signal(_number: int, _frame: FrameType | None) -> None:
-        stop.set()
-
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, on_signal)
     context = Context()
     rclpy.init(args=words, context=context, signal_handler_options=SignalHandlerOptions.NO)
+    interrupt_on_signals()
     try:
-        return _serve(context, stop)
+        return _serve(context)
+    except KeyboardInterrupt:
+        return 0
     finally:
         rclpy.shutdown(context=context)
 
 
-def _serve(context: Context, stop: threading.Event) -> int:
+def _serve(context: Context) -> int:
     try:
+        load_plugins()
         node = TaskPlannerNode(context)
-    except ValueError as error:
+    except (PluginError, ValueError) as error:
         print(f'{NAME}: {error}', file=sys.stderr)
         return 2
     executor = MultiThreadedExecutor(num_threads=4, context=context)
@@ -228,16 +261,18 @@ def _serve(context: Context, stop: threading.Event) -> int:
             executor.spin_once(timeout_sec=0.5)
 
     thread = threading.Thread(target=spin)
-    thread.start()
-    node.get_logger().info('ready')
-    while not stop.wait(0.5) and thread.is_alive():
-        continue
-    node.finish()
-    stopped.set()
-    executor.wake()
-    thread.join()
-    executor.shutdown(timeout_sec=2.0)
-    node.close()
+    try:
+        thread.start()
+        node.get_logger().info('ready')
+        while thread.is_alive():
+            stopped.wait(0.5)
+    finally:
+        node.finish()
+        stopped.set()
+        executor.wake()
+        thread.join()
+        executor.shutdown(timeout_sec=2.0)
+        node.close()
     return 0
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from task_planner_node.errors import Diagnostic
 
@@ -61,12 +61,16 @@ INVALID_CODES = frozenset(
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """Can these ground preconditions be met from ``start``?  ``action`` is for people and logs."""
+    """Can these ground preconditions be met from ``start``?  ``action`` is for people and logs.
+
+    ``behaviour`` holds constraints on the motion itself.
+    """
 
     action: tuple[str, ...]
     preconditions: str
     start: Token
     alternative: int
+    behaviour: str = ''
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,13 +92,17 @@ class Answer:
 
 @dataclass(frozen=True, slots=True)
 class CandidateAdvice:
-    """What is known of one candidate; ``code`` and ``message`` say why it is impossible."""
+    """What is known of one candidate; ``code`` and ``message`` say why it is impossible.
+
+    No motion that meets it is shorter than ``lower_bound`` [m].
+    """
 
     impossible: bool = False
     scope: Scope = Scope.THIS_START
     code: int = 0
     message: str = ''
     objects: tuple[str, ...] = ()
+    lower_bound: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,3 +137,11 @@ class Oracle(Protocol):
 
     def advise(self, start: Token, preconditions: Sequence[str]) -> Advice:
         """Advise on at most 1000 ground texts."""
+
+
+@runtime_checkable
+class BatchOracle(Protocol):
+    """A motion planner that can work on several requests at once; it raises what an Oracle raises."""
+
+    def satisfy_together(self, queries: Sequence[Query]) -> Sequence[Answer]:
+        """Answer several requests, in their order."""

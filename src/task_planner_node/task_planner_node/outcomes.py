@@ -7,7 +7,7 @@ from enum import IntEnum
 from math import inf
 
 from task_planner_node.errors import Diagnostic
-from task_planner_node.search.partial_plan import Step
+from task_planner_node.search.plans import Plan, Step
 from task_planner_node.search.statistics import Statistics
 
 
@@ -25,18 +25,26 @@ class Outcome(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How a mission is searched; ``time_budget`` in seconds."""
+    """How a mission is searched; ``time_budget`` in seconds, ``plans`` is how many are wanted.
+
+    ``memory_limit`` [MiB] is what the search may take beyond what the process holds at its beginning.
+    """
 
     time_budget: float = 60.0
     max_alternatives: int = 4
-    max_depth: int = 200_000
+    max_depth: int = 1_000_000
     optimise: bool = False
     use_advice: bool = True
+    plans: int = 1
+    memory_limit: int = 4096
 
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """Where a search stands; lengths in metres, ``elapsed`` in seconds."""
+    """Where a search stands; lengths in metres, ``elapsed`` in seconds.
+
+    ``best_cost`` is that of the best plan so far; ``improved`` is this plan when it is new.
+    """
 
     phase: str
     goals_reached: int = 0
@@ -47,15 +55,25 @@ class Progress:
     current_length: float = 0.0
     best_length: float = inf
     elapsed: float = 0.0
+    best_cost: float = inf
+    improved: Plan | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """The outcome with its explanation; ``steps`` is the plan when SOLVED; ``details`` is for explain."""
+    """The outcome with its explanation; ``details`` is for explain.
+
+    ``plans`` holds the plan when SOLVED, or several if so many were wanted, the best one first.
+    """
 
     outcome: Outcome
     explanation: str
     diagnostics: tuple[Diagnostic, ...] = ()
-    steps: tuple[Step, ...] = ()
+    plans: tuple[Plan, ...] = ()
     statistics: Statistics = field(default_factory=Statistics)
     details: str = ''
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """The actions of the best plan; empty without one."""
+        return self.plans[0].steps if self.plans else ()

@@ -27,7 +27,10 @@ PARAMETERS = (
         'max_alternatives', 4, '', 1, 1000, 'destinations tried per geometric request, unless named'
     ),
     Parameter(
-        'max_depth', 200_000, '', 100, 2_000_000, 'nested choices of a search, bounds its memory'
+        'max_depth', 1_000_000, '', 100, 20_000_000, 'decompositions and actions of one plan'
+    ),
+    Parameter(
+        'memory_limit', 4096, 'MiB', 64, 1_000_000, 'memory that a search may take for itself'
     ),
     Parameter(
         'request_time_budget', 5.0, 's', 0.1, 3600.0, 'wall clock granted to one geometric request'
@@ -44,7 +47,8 @@ class Parameters:
 
     time_budget: float = 60.0
     max_alternatives: int = 4
-    max_depth: int = 200_000
+    max_depth: int = 1_000_000
+    memory_limit: int = 4096
     request_time_budget: float = 5.0
     service_timeout: float = 4.0
 
@@ -59,6 +63,7 @@ def read_parameters(values: Mapping[str, object]) -> Parameters:
         float(checked['time_budget']),
         int(checked['max_alternatives']),
         int(checked['max_depth']),
+        int(checked['memory_limit']),
         float(checked['request_time_budget']),
         float(checked['service_timeout']),
     )

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from math import inf
 
+from task_planner_node.deep import on_deep_stack
 from task_planner_node.errors import (
     Cancelled,
     Diagnostic,
@@ -13,14 +15,23 @@ from task_planner_node.errors import (
     LimitReached,
     MissionError,
 )
-from task_planner_node.explanation import explain_failure, explain_solution, place_refusal
+from task_planner_node.explanation import (
+    details_of,
+    explain_failure,
+    explain_solution,
+    place_refusal,
+)
 from task_planner_node.language.model import Domain, Problem, show
+from task_planner_node.memory import resident
 from task_planner_node.mission import MissionText, check_and_compile, read_mission
 from task_planner_node.oracle import INVALID_CODES, Oracle, Token
 from task_planner_node.outcomes import Options, Outcome, Progress, Result
+from task_planner_node.search.domain import Start
 from task_planner_node.search.engine import Search
 from task_planner_node.search.geometry import Geometry, RequestRefused
 from task_planner_node.search.partial_plan import Limits
+from task_planner_node.search.plans import Plan
+from task_planner_node.search.repair import Interrupted, Repair
 from task_planner_node.search.state import State
 from task_planner_node.search.statistics import Statistics
 
@@ -47,17 +58,31 @@ class Planner:
         self._report = report
         self._began = time.monotonic()
         self._reported = -1.0
+        self._held = resident()
         self._statistics = Statistics()
         self._search: Search | None = None
+        self._told: Plan | None = None
         self._state: State | None = None
         self._problem: Problem | None = None
         self._domain: Domain | None = None
 
-    def plan(self, domain: MissionText, problem: MissionText, start: Token = ()) -> Result:
-        """Plan a mission from the geometric state ``start``; never raises for what is in the texts."""
+    def plan(
+        self,
+        domain: MissionText,
+        problem: MissionText,
+        start: Token = (),
+        interrupted: Interrupted | None = None,
+    ) -> Result:
+        """Plan a mission from the geometric state ``start``; never raises for what is in the texts.
+
+        With ``interrupted`` the facts of the problem are those that hold now, and what is left of that plan is to
+        be done instead of the tasks of the problem: as much of it as possible is kept (search/repair.py).
+        """
         diagnostics: tuple[Diagnostic, ...] = ()
         try:
-            outcome, explanation, diagnostics = self._plan(domain, problem, start)
+            outcome, explanation, diagnostics = on_deep_stack(
+                lambda: self._plan(domain, problem, start, interrupted)
+            )
         except MissionError as error:
             outcome, explanation = Outcome.INVALID, str(error)
             diagnostics = error.diagnostics
@@ -76,12 +101,16 @@ class Planner:
         self._statistics.planning_time = time.monotonic() - self._began
         self._say('writing', force=True)
         search = self._search
-        steps = search.best or () if search and outcome == Outcome.SOLVED else ()
-        details = '\n'.join([explanation, *(search.dead_ends.lines(1000) if search else [])])
-        return Result(outcome, explanation, diagnostics, steps, self._statistics, details)
+        plans = tuple(search.plans.kept) if search and outcome == Outcome.SOLVED else ()
+        details = details_of(explanation, search)
+        return Result(outcome, explanation, diagnostics, plans, self._statistics, details)
 
     def _plan(
-        self, domain_text: MissionText, problem_text: MissionText, start: Token
+        self,
+        domain_text: MissionText,
+        problem_text: MissionText,
+        start: Token,
+        interrupted: Interrupted | None,
     ) -> tuple[Outcome, str, tuple[Diagnostic, ...]]:
         self._say('loading', force=True)
         domain, problem = read_mission(domain_text, problem_text)
@@ -89,6 +118,12 @@ class Planner:
         self._say('checking', force=True)
         mission = check_and_compile(domain, problem, self._oracle)
         facts = [(fact.name, *fact.args) for fact in problem.facts]
+        beginning: Start = mission.domain.beginning(problem)
+        if interrupted is not None:
+            facts = interrupted.facts(domain, facts)
+            beginning = Repair(
+                beginning, interrupted, lambda: self._search.deepest if self._search else 0
+            )
         self._state = State(mission.domain.plan, facts, self._check)
         geometry = Geometry(
             self._oracle,
@@ -96,17 +131,19 @@ class Planner:
             self._options.max_alternatives,
             self._check,
         )
+        options = self._options
         search = self._search = Search(
             mission.domain,
+            beginning,
             self._state,
             geometry,
             self._statistics,
-            Limits(self._options.max_depth, self._options.optimise, self._options.use_advice),
+            Limits(options.max_depth, options.optimise, options.use_advice, options.plans),
             self._check,
+            self._improve,
         )
-        network = mission.domain.initial_network(problem.tasks)
         self._say('searching', force=True)
-        search.run(network, start)
+        search.run(start)
         if search.best is not None:
             return Outcome.SOLVED, explain_solution(search), mission.warnings
         outcome = Outcome.NO_PLAN if search.proven else Outcome.LIMIT
@@ -135,24 +172,38 @@ class Planner:
         explanation, remarks = explain_failure(search, reason, domain, problem)
         return Outcome.LIMIT, explanation, remarks
 
+    def _improve(self, _: Plan) -> None:
+        if self._options.optimise:
+            self._say('searching', force=True)
+
     def _check(self) -> None:
         if self._should_stop():
             raise Cancelled
         if time.monotonic() - self._began > self._options.time_budget:
             raise LimitReached(f'the time budget of {self._options.time_budget:g} s is spent')
-        self._say('searching')
+        if self._say('searching') and resident() - self._held > self._options.memory_limit * 2**20:
+            raise LimitReached(f'the memory limit of {self._options.memory_limit} MiB is reached')
 
-    def _say(self, phase: str, force: bool = False) -> None:
+    def _improved(self, best: Plan | None) -> Plan | None:
+        """The best plan, if it was not told yet."""
+        if best is self._told:
+            return None
+        self._told = best
+        return best
+
+    def _say(self, phase: str, force: bool = False) -> bool:
+        """Report progress; whether it was time for that."""
         elapsed = time.monotonic() - self._began
         if not force and elapsed - self._reported < PROGRESS_INTERVAL:
-            return
+            return False
         self._reported = elapsed
         problem, state, search = self._problem, self._state, self._search
         if problem is None or state is None or search is None:
             self._report(Progress(phase, elapsed=elapsed))
-            return
+            return True
         statistics = self._statistics
-        node = search.stack[-1] if search.stack else None
+        position = search.position
+        best = search.best
         self._report(
             Progress(
                 phase,
@@ -160,9 +211,12 @@ class Planner:
                 len(problem.goals),
                 statistics.requests,
                 statistics.backtracks + statistics.geometric_backtracks,
-                node.actions if node else 0,
-                node.length if node else 0.0,
-                search.best_length,
+                position[4] if position else 0,
+                position[1].length if position else 0.0,
+                best.length if best else inf,
                 elapsed,
+                best.cost if best else inf,
+                self._improved(best),
             )
         )
+        return True

@@ -84,6 +84,7 @@ class RoverMotionPlanner:
                 103 if label in self.walled else 0,
                 f'{label} is walled in' if label in self.walled else '',
                 (label,),
+                math.dist(start[0], PLACES[label]),
             )
             for label in places
         )

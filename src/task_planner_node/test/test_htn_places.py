@@ -31,7 +31,7 @@ DOMAIN = """\
    ; and a line of its own
    (distance(?r, ?gauge) >= ?gauge.size) (distance(?r, ?gauge) <= ?gauge.colour + 1))
   ((was_read ?gauge)))
-(:method (read-all ?r nil) () ())
+(:method (read-all ?_robot nil) () ())
 (:method (read-all ?r (?gauge . ?others)) ()
   (:unordered (!read_gauge ?r ?gauge) (read-all ?r ?others)))
 ))
@@ -89,7 +89,7 @@ def test_the_mission_is_good_before_it_is_spoilt(plan: Plan) -> None:
 
 
 def test_a_task_that_never_ends_is_found_on_its_line(plan: Plan) -> None:
-    domain = DOMAIN.replace('(:method (read-all ?r nil) () ())', '').replace(
+    domain = DOMAIN.replace('(:method (read-all ?_robot nil) () ())', '').replace(
         '(:unordered (!read_gauge ?r ?gauge) (read-all ?r ?others))',
         '((read-all ?r (?gauge . ?others)))',
     )
@@ -100,7 +100,7 @@ def test_a_task_that_never_ends_is_found_on_its_line(plan: Plan) -> None:
 
 
 def test_a_task_that_lacks_its_base_case_is_found_on_its_line(plan: Plan) -> None:
-    result = plan(DOMAIN.replace('(:method (read-all ?r nil) () ())', ''), PROBLEM, Plant())
+    result = plan(DOMAIN.replace('(:method (read-all ?_robot nil) () ())', ''), PROBLEM, Plant())
     assert result.outcome == Outcome.NO_PLAN
     assert place_of(error_of(result)) == ('p.lisp', 4, 14, 'robot0')
 
@@ -140,7 +140,12 @@ def test_what_the_motion_planner_does_not_know_is_found_in_the_operator(
             'nothing can make (dock boilr) true; unknown object boilr: no fact speaks of it',
             (3, 22),
         ),
-        ('(dock dock0)', '(bay dock0)', 'nothing can make (dock dock0) true', (3, 4)),
+        (
+            '(dock dock0)',
+            '(bay dock0)',
+            'no fact or effect ever makes (dock dock0) true',
+            (3, 4),
+        ),
         ('(!start_at robot0 dock0)', '', 'nothing can make (started robot0) true', (4, 4)),
     ],
 )

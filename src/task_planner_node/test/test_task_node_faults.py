@@ -150,21 +150,27 @@ class MissionClient(Node):
         self.actions = ActionClient(self, PlanTasks, 'plan_tasks')
         self.explain = self.create_client(Explain, 'explain')
         self.phases: list[str] = []
+        self.improved: list[str] = []
 
     def send(
         self, mission: str, domain: SourceText, problem: SourceText, time_budget: float = 0.0
     ) -> Any:
-        assert self.actions.wait_for_server(PATIENCE)
         goal = PlanTasks.Goal(
             mission=mission,
             domain=domain,
             problem=problem,
             options=PlanningOptions(use_advice=True, time_budget=time_budget),
         )
-        heard = self.actions.send_goal_async(
-            goal, lambda message: self.phases.append(message.feedback.progress.phase)
-        )
-        return wait(heard)
+        return self.send_goal(goal)
+
+    def send_goal(self, goal: PlanTasks.Goal) -> Any:
+        assert self.actions.wait_for_server(PATIENCE)
+
+        def hear(message: Any) -> None:
+            self.phases.append(message.feedback.progress.phase)
+            self.improved += message.feedback.progress.improved
+
+        return wait(self.actions.send_goal_async(goal, hear))
 
     def plan(self, mission: str = 'm', domain: str = 'domain', problem: str = 'problem') -> Any:
         sources = [
@@ -175,9 +181,9 @@ class MissionClient(Node):
         ]
         return wait(self.send(mission, *sources).get_result_async()).result
 
-    def why(self, mission: str) -> Any:
+    def why(self, mission: str, form: str = '') -> Any:
         assert self.explain.wait_for_service(PATIENCE)
-        return wait(self.explain.call_async(Explain.Request(mission=mission)))
+        return wait(self.explain.call_async(Explain.Request(mission=mission, format=form)))
 
 
 @pytest.fixture
@@ -213,6 +219,10 @@ def test_without_a_motion_planner_the_mission_is_unavailable_and_the_next_one_is
     assert client.why('').text == client.why('bad').text
     assert 'not running' in client.why('m').text
     assert not client.why('nobody').available
+    assert client.why('symbolic', 'tree').text == '1. (!a)\n'
+    assert client.why('symbolic', 'svg').text.startswith('<svg ')
+    for mission, form in (('symbolic', 'png'), ('bad', 'tree'), ('m', 'json')):
+        assert not client.why(mission, form).available
 
 
 def test_the_answers_of_the_motion_planner_are_passed_on_unopened(client: MissionClient) -> None:
@@ -228,6 +238,37 @@ def test_the_answers_of_the_motion_planner_are_passed_on_unopened(client: Missio
     assert client.phases[:2] == ['loading', 'checking']
     # Backwards advice at every choice: the last goal first, and so on.
     assert [step.action[2] for step in result.steps[1:3]] == ['location8', 'location7']
+
+
+WALK = """(defdomain d (
+(:operator (!walk ?x ?y) ((at ?x)(road ?x ?y)) ((at ?x)) ((at ?y)) (call * 1 1))
+(:operator (!ride ?x ?y) ((at ?x)(bus ?x ?y)) ((at ?x)) ((at ?y)) 5)
+(:method (go ?x ?y) ((at ?x)) ((!walk ?x ?y)))
+(:method (go ?x ?y) () ((!ride ?x ?y)))))"""
+TRIP = '(defproblem p d ((at {})(road a b)(bus a b)(bus b c){}) ((go a b) (go b c)))'
+
+
+def test_a_plan_is_gone_on_with_and_several_are_given(client: MissionClient) -> None:
+    def plan(mission: str, problem: str, **fields: Any) -> Any:
+        texts = {'domain': SourceText(text=WALK), 'problem': SourceText(text=problem)}
+        goal = PlanTasks.Goal(mission=mission, **texts, **fields)
+        return wait(client.send_goal(goal).get_result_async()).result
+
+    def actions(steps: Any) -> list[str]:
+        return [' '.join(step.action) for step in steps]
+
+    options = PlanningOptions(optimise=True, plans=3)
+    best = plan('trip', TRIP.format('a', '(road b c)'), options=options)
+    assert actions(best.steps) == ['!walk a b', '!walk b c']
+    assert [other.cost for other in best.others] == [6.0, 6.0]
+    assert client.improved[-2:] == ['(!walk a b)', '(!walk b c)']
+    rest = plan('rest', TRIP.format('b', '(road b c)'), resumes='trip', executed=1)
+    assert actions(rest.steps) == ['!walk b c']
+    blocked = plan('blocked', TRIP.format('b', ''), resumes='trip', executed=1)
+    assert actions(blocked.steps) == ['!ride b c']
+    nothing = plan('nothing', TRIP.format('b', ''), resumes='never', executed=1)
+    assert nothing.outcome.value == Outcome.INVALID
+    assert 'no plan of a mission never to go on with' in nothing.outcome.explanation
 
 
 @pytest.mark.parametrize('waits', ['running', 'queued'])
@@ -320,7 +361,7 @@ def test_a_signal_stops_the_process_without_a_traceback(number: signal.Signals) 
     ('arguments', 'code', 'text'),
     [
         (('--help',), 0, 'examples:'),
-        (('--ros-args', '-p', 'max_depth:=3'), 2, 'from 100 to 2e+06'),
+        (('--ros-args', '-p', 'max_depth:=3'), 2, 'from 100 to 2e+07'),
         (('--ros-args', '-p', 'time_budget:=soon'), 2, "not 'soon'"),
         (('--nonsense',), 2, 'unrecognized'),
     ],

@@ -127,6 +127,7 @@ class MissionClient:
             progress.backtracks,
             progress.best_length,
             progress.elapsed,
+            progress.best_cost,
         )
 
     def _on_accepted(self, future: Any) -> None:

@@ -17,5 +17,7 @@ def progress_line(progress: Progress) -> str:
         parts.append(f'backtracks {progress.backtracks}')
     if isfinite(progress.best_length):
         parts.append(f'best {progress.best_length:.1f} m')
+    if isfinite(progress.best_cost):
+        parts.append(f'cost {progress.best_cost:.1f}')
     parts.append(f'{progress.elapsed:.1f} s')
     return '  '.join(parts)

@@ -10,7 +10,7 @@ from interface_node.plan import Plan
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """Where a search stands; ``best_length`` in [m], ``elapsed`` in [s]."""
+    """Where a search stands; ``best_length`` in [m], ``elapsed`` in [s], ``best_cost`` of the best plan so far."""
 
     phase: str = 'starting'
     goals_reached: int = 0
@@ -19,6 +19,7 @@ class Progress:
     backtracks: int = 0
     best_length: float = inf
     elapsed: float = 0.0
+    best_cost: float = inf
 
 
 @dataclass(frozen=True, slots=True)

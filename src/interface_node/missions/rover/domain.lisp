@@ -56,7 +56,7 @@
   ()
   ())
 
-(:method (note-goals ((has_photo_of ?r ?o) . ?goals))
+(:method (note-goals ((has_photo_of ?_robot ?o) . ?goals))
   ()
   ((!!need_photo ?o) (note-goals ?goals)))
 

@@ -2,7 +2,17 @@
 
 from task_planner_node.language.checks import check_mission
 from task_planner_node.language.domain import read_domain
-from task_planner_node.language.problem import read_problem
-from task_planner_node.language.source import Source, load_source
+from task_planner_node.language.problem import problem_names, read_problem
+from task_planner_node.language.source import Source, load_source, split_name
+from task_planner_node.language.spelling import Spelling
 
-__all__ = ['Source', 'check_mission', 'load_source', 'read_domain', 'read_problem']
+__all__ = [
+    'Source',
+    'Spelling',
+    'check_mission',
+    'load_source',
+    'problem_names',
+    'read_domain',
+    'read_problem',
+    'split_name',
+]

@@ -1,211 +1,121 @@
-"""Reading a domain: operators of the paper and of SHOP2, methods and axioms."""
+"""Reading a domain: operators of the paper and of SHOP, methods and axioms."""
 
 from __future__ import annotations
 
-import math
-import re
-
 from task_planner_node.errors import Diagnostic, MissionError
-from task_planner_node.language.expressions import (
-    Refused,
-    elements,
-    is_nil,
-    read_atom,
-    read_condition,
-    read_tasks,
-    refuse,
-)
-from task_planner_node.language.model import (
-    Atom,
-    Axiom,
-    Branch,
-    Domain,
-    GeometricText,
-    Method,
-    Operator,
-)
-from task_planner_node.language.reader import ListNode, Node, Symbol, first_word, read
+from task_planner_node.language.forms import read_forms
+from task_planner_node.language.methods import read_axiom, read_method
+from task_planner_node.language.model import Axiom, Domain, Method, Operator
+from task_planner_node.language.operators import read_op, read_paper_operator, read_shop_operator
+from task_planner_node.language.pddl.shop import WORDS as PDDL_WORDS
+from task_planner_node.language.pddl.shop import ShopPddl
+from task_planner_node.language.reader import ListNode, Node, Symbol, first_word, unmarked
+from task_planner_node.language.reading import Reading, Refused, children_of, elements
 from task_planner_node.language.source import Source
+from task_planner_node.language.spelling import Spelling
 from task_planner_node.language.suggestions import did_you_mean
+from task_planner_node.language.terms import read_name
 
-FORMS = ('operator', ':operator', ':method', ':-', 'defdomain', 'defproblem')
-PAPER_FIELDS = 'head, symbolic preconditions, geometric preconditions, symbolic effects'
-SHOP_FIELDS = 'head, preconditions, delete list, add list and optionally a cost'
-COMMENT = re.compile(r';[^\n]*')
+FORMS = (
+    *('operator', ':operator', ':op', ':method', ':-', 'defdomain', 'defproblem', ':pddl-method'),
+    *sorted(PDDL_WORDS),
+)
+OTHER_WORDS = frozenset({'defdomain', 'defproblem', 'make-problem'})
 
 
-def read_domain(source: Source) -> Domain:
-    """Read ``(defdomain name (form ...))`` or bare forms; a defproblem in the same text is left alone.
+def read_domain(source: Source, spelling: Spelling | None = None, name: str = '') -> Domain:
+    """Read ``(defdomain name (form ...))`` or bare forms; problems in the same text are left alone.
 
-    Raises MissionError with every definition that cannot be read.
+    ``spelling`` is shared with the problem that belongs to the domain.  Of several domains in the text the one
+    called ``name`` is read.  Raises MissionError with every definition that cannot be read.
     """
-    name = ''
-    forms: list[Node] = []
-    errors: list[Diagnostic] = []
-    seen = False
-    for node in read(source):
-        try:
-            if first_word(node) == 'defdomain':
-                if seen:
-                    raise refuse(source, node, 'a text holds one domain: this is the second')
-                seen = True
-                name, inner = _read_defdomain(source, node)
-                forms.extend(inner)
-            elif first_word(node) != 'defproblem':
-                forms.append(node)
-        except Refused as refused:
-            errors.append(refused.diagnostic)
+    reading = Reading(source, spelling)
+    forms = read_forms(reading)
+    definitions = [node for node in forms if first_word(node) not in OTHER_WORDS]
+    found = ''
+    try:
+        node = _chosen(reading, forms, name)
+        if node is not None:
+            found, inner = _read_defdomain(reading, node)
+            definitions = [*inner, *definitions]
+    except Refused as refused:
+        reading.errors.append(refused.diagnostic)
+    operators, methods, axioms = _read_definitions(reading, definitions)
+    if not reading.errors and not operators and not methods and node is None:
+        nothing = 'the domain defines no operator and no method'
+        reading.errors.append(Diagnostic(nothing, source=source.name))
+    if reading.errors:
+        raise MissionError(reading.errors)
+    return Domain(
+        source, found, tuple(operators), tuple(methods), tuple(axioms), tuple(reading.warnings)
+    )
+
+
+def _chosen(reading: Reading, forms: list[Node], name: str) -> Node | None:
+    domains = [node for node in forms if first_word(node) == 'defdomain']
+    if len(domains) < 2:
+        return domains[0] if domains else None
+    names = [_read_defdomain(reading, node)[0] for node in domains]
+    fitting = [i for i, found in enumerate(names) if found.lower() == name.lower()]
+    if not fitting:
+        message = 'a text holds one domain, or the problem names one'
+        raise reading.refuse(domains[1], f'{message}: this is the second of {", ".join(names)}')
+    return domains[fitting[-1]]
+
+
+def _read_definitions(
+    reading: Reading, definitions: list[Node]
+) -> tuple[list[Operator], list[Method], list[Axiom]]:
     operators: list[Operator] = []
     methods: list[Method] = []
     axioms: list[Axiom] = []
-    for form in forms:
+    pddl = ShopPddl(reading)
+    # Types first: actions before them may use them.
+    for node in sorted(definitions, key=lambda each: first_word(each) != ':types'):
+        word = first_word(node)
+        if reading.hopeless:
+            break
         try:
-            word = first_word(form)
-            if word == 'operator':
-                operators.append(_read_paper_operator(source, form))
+            if not isinstance(node, ListNode) or word not in FORMS:
+                raise reading.refuse(node, _unknown_form(word))
+            if word in PDDL_WORDS:
+                pddl.read(_plain(reading, node))
+            elif word == 'operator':
+                operators.append(read_paper_operator(reading, node))
+            elif word == ':op':
+                operators.append(read_op(reading, node))
             elif word == ':operator':
-                operators.append(_read_shop_operator(source, form))
-            elif word == ':method':
-                methods.append(_read_method(source, form))
-            elif word == ':-':
-                axioms.append(_read_axiom(source, form))
+                operators.append(read_shop_operator(reading, _plain(reading, node)))
+            elif word in (':method', ':pddl-method'):
+                methods.append(read_method(reading, _plain(reading, node)))
             else:
-                raise refuse(source, form, _unknown_form(word))
+                axioms.append(read_axiom(reading, _plain(reading, node)))
         except Refused as refused:
-            errors.append(refused.diagnostic)
-    if not errors and not operators and not methods and not seen:
-        errors.append(
-            Diagnostic('the domain defines no operator and no method', source=source.name)
-        )
-    if errors:
-        raise MissionError(errors)
-    return Domain(source, name, tuple(operators), tuple(methods), tuple(axioms))
+            reading.errors.append(refused.diagnostic)
+        except MissionError as error:
+            reading.errors.extend(error.diagnostics)
+    return operators + pddl.operators, methods, axioms + pddl.axioms
+
+
+def _plain(reading: Reading, node: ListNode) -> ListNode:
+    return ListNode(unmarked(reading.source, node.children), node.start, node.end)
 
 
 def _unknown_form(word: str) -> str:
-    if word == ':op':
-        return '(:op ...) is not supported yet: use (:operator ...)'
+    if word == ':include':
+        return 'a domain is one text: put what is included into it'
     if not word:
         return 'expected a definition: (Operator ...), (:operator ...), (:method ...) or (:- ...)'
     return f'unknown form ({word} ...)' + did_you_mean(word, FORMS)
 
 
-def _children(node: Node) -> list[Node]:
-    return node.children if isinstance(node, ListNode) else []
-
-
-def _read_defdomain(source: Source, node: Node) -> tuple[str, list[Node]]:
-    children = _children(node)
-    if len(children) != 3 or not isinstance(children[1], Symbol):
-        raise refuse(source, node, 'a domain is written (defdomain name (definition ...))')
-    return children[1].text, elements(source, children[2], 'the definitions of the domain')
-
-
-def _read_head(source: Source, node: Node, operator: bool) -> Atom:
-    head = read_atom(source, node, 'a head')
-    if operator and not head.name.startswith('!'):
-        raise refuse(source, node, f"the name of an operator begins with '!': !{head.name}")
-    if not operator and head.name.startswith('!'):
-        raise refuse(source, node, f'{head.name} names an operator: a method cannot define it')
-    return head
-
-
-def _read_paper_operator(source: Source, node: Node) -> Operator:
-    fields = _children(node)[1:]
-    if len(fields) not in (4, 6):
-        raise refuse(
-            source,
-            node,
-            f'an Operator has 4 fields ({PAPER_FIELDS}), or 6 with behaviour constraints before and '
-            f'a reference to geometric effects after the effects; this one has {len(fields)}',
-        )
-    head = _read_head(source, fields[0], operator=True)
-    condition = read_condition(source, fields[1])
-    geometric = _read_geometric(source, fields[2])
-    if len(fields) == 6:
-        for field, what in ((fields[3], 'behaviour constraints'), (fields[5], 'geometric effects')):
-            if not is_nil(field):
-                raise refuse(source, field, f'{what} are not supported yet: leave the field empty')
-    effects = fields[3] if len(fields) == 4 else fields[4]
-    adds: list[Atom] = []
-    deletes: list[Atom] = []
-    for effect in elements(source, effects, 'the symbolic effects'):
-        if first_word(effect) == 'not':
-            children = _children(effect)
-            if len(children) != 2:
-                raise refuse(source, effect, '(not ...) takes exactly one literal')
-            deletes.append(read_atom(source, children[1], 'a literal'))
-        else:
-            adds.append(read_atom(source, effect, 'a literal'))
-    return Operator(head, condition, geometric, tuple(deletes), tuple(adds))
-
-
-def _read_geometric(source: Source, node: Node) -> GeometricText | None:
-    if is_nil(node):
-        return None
-    if not isinstance(node, ListNode):
-        raise refuse(source, node, 'expected geometric preconditions, a list')
-    raw = source.text[node.start : node.end]
-    text = COMMENT.sub(lambda comment: ' ' * len(comment.group()), raw)
-    return GeometricText(text, node)
-
-
-def _read_shop_operator(source: Source, node: Node) -> Operator:
-    fields = _children(node)[1:]
-    if len(fields) not in (4, 5):
-        count = f'this one has {len(fields)} fields'
-        raise refuse(source, node, f'an :operator has {SHOP_FIELDS}; {count}')
-    head = _read_head(source, fields[0], operator=True)
-    condition = read_condition(source, fields[1])
-    deletes, adds = (
-        tuple(read_atom(source, effect, 'a literal') for effect in elements(source, field, what))
-        for field, what in ((fields[2], 'the delete list'), (fields[3], 'the add list'))
-    )
-    cost = _read_cost(source, fields[4]) if len(fields) == 5 else 1.0
-    return Operator(head, condition, None, deletes, adds, cost)
-
-
-def _read_cost(source: Source, node: Node) -> float:
-    if isinstance(node, Symbol):
-        try:
-            cost = float(node.text)
-        except ValueError:
-            cost = math.nan
-        if math.isfinite(cost) and cost >= 0:
-            return cost
-    raise refuse(source, node, 'the cost of an operator is a finite number, not negative')
-
-
-def _read_method(source: Source, node: Node) -> Method:
-    fields = _children(node)[1:]
-    if not fields:
-        raise refuse(
-            source, node, 'a method is written (:method head [name] preconditions tasks ...)'
-        )
-    head = _read_head(source, fields[0], operator=False)
-    branches: list[Branch] = []
-    rest = fields[1:]
-    while rest:
-        name = ''
-        first = rest[0]
-        if isinstance(first, Symbol) and not is_nil(first):
-            name = first.text
-            rest = rest[1:]
-        if len(rest) < 2:
-            raise refuse(source, rest[0] if rest else first, 'a branch has preconditions and tasks')
-        branches.append(Branch(name, read_condition(source, rest[0]), read_tasks(source, rest[1])))
-        rest = rest[2:]
-    if not branches:
-        raise refuse(source, node, 'a method needs preconditions and tasks: () () for none')
-    return Method(head, tuple(branches))
-
-
-def _read_axiom(source: Source, node: Node) -> Axiom:
-    fields = _children(node)[1:]
-    if not fields:
-        raise refuse(source, node, 'an axiom is written (:- head body ...)')
-    head = _read_head(source, fields[0], operator=False)
-    bodies = [field for field in fields[1:] if isinstance(field, ListNode) or is_nil(field)]
-    if not bodies:
-        raise refuse(source, node, 'an axiom needs a body: () when it always holds')
-    return Axiom(head, tuple(read_condition(source, body) for body in bodies))
+def _read_defdomain(reading: Reading, node: Node) -> tuple[str, list[Node]]:
+    """The name and the definitions of ``(defdomain name (form ...))``; options of the name are left out."""
+    children = children_of(node)
+    if len(children) != 3:
+        raise reading.refuse(node, 'a domain is written (defdomain name (definition ...))')
+    named = children[1]
+    name = named.children[0] if isinstance(named, ListNode) and named.children else named
+    if not isinstance(name, Symbol):
+        raise reading.refuse(named, 'a domain is written (defdomain name (definition ...))')
+    return read_name(reading, name), elements(reading, children[2], 'the definitions of the domain')

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import stat
 from bisect import bisect_right
 from functools import cached_property
@@ -9,8 +10,9 @@ from pathlib import Path
 
 from task_planner_node.errors import Diagnostic, MissionError, Severity
 
-MAX_BYTES = 1 << 20
+MAX_BYTES = 8 << 20
 EXCERPT = 60
+MARK = re.compile(r"['`,]|#[.+-]")
 ALLOWED_CONTROLS = frozenset('\t\n\r\f\v')
 
 
@@ -24,6 +26,11 @@ class Source:
     @cached_property
     def _line_starts(self) -> list[int]:
         return [0] + [i + 1 for i, character in enumerate(self.text) if character == '\n']
+
+    @cached_property
+    def has_marks(self) -> bool:
+        """Whether a quote, a comma or another mark of Lisp occurs anywhere in the text."""
+        return MARK.search(self.text) is not None
 
     def position(self, offset: int) -> tuple[int, int]:
         """Line and column of ``offset``, both from 1."""
@@ -41,6 +48,16 @@ class Source:
         """A remark about the text from ``start`` to ``end``."""
         line, column = self.position(start)
         return Diagnostic(message, line, column, self.excerpt(start, end), self.name, severity)
+
+
+def split_name(path: str) -> tuple[str, str]:
+    """The path of a file and the name behind its ``#``, empty without one or if a file has the whole name."""
+    file, mark, name = path.rpartition('#')
+    try:
+        whole = not mark or Path(path).exists()
+    except (OSError, ValueError):
+        whole = True
+    return (path, '') if whole else (file, name)
 
 
 def load_source(what: str, path: str, text: str = '') -> Source:

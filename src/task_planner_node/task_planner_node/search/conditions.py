@@ -4,75 +4,93 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from task_planner_node.search.state import State
 from task_planner_node.search.terms import Frame
 
+# True: holds in exactly one way, whose bindings are in the frame.  False: does not hold.  Else the solutions,
+# not begun; each binds the frame.  A goal leaves values behind only in variables that were surely unbound before it:
+# who asks whether a variable is bound puts those back.
+Found = bool | Iterator[None]
+Begin = Callable[[State, Frame], Found]
+Describe = Callable[[Frame], str]
+
 
 @dataclass(frozen=True, slots=True)
-class Check:
-    """A goal without new bindings."""
+class Goal:
+    """A part of a condition; ``binds`` tells whether it may change the frame."""
 
-    holds: Callable[[State, Frame], bool]
-    describe: Callable[[Frame], str]
-
-
-@dataclass(frozen=True, slots=True)
-class Choice:
-    """A goal that binds variables, one solution after the other; at its end they are unbound again."""
-
-    solutions: Callable[[State, Frame], Iterator[None]]
-    describe: Callable[[Frame], str]
-
-
-Goal = Check | Choice
+    begin: Begin
+    describe: Describe
+    binds: bool = True
 
 
 class Conjunction:
     """Goals that must all hold."""
 
+    __slots__ = ('_steps', 'binds', 'goals')
+
     def __init__(self, goals: Sequence[Goal]) -> None:
         self.goals = tuple(goals)
-        self._only_checks = all(isinstance(goal, Check) for goal in self.goals)
+        self.binds = any(goal.binds for goal in goals)
+        self._steps = tuple(goal.begin for goal in goals)
+
+    def begin(self, state: State, frame: Frame) -> Found:
+        """Go as far as there is only one way."""
+        index = 0
+        for step in self._steps:
+            index += 1
+            found = step(state, frame)
+            if found is True:
+                continue
+            state.work += index
+            if found is False:
+                return False
+            return self._enumerate(found, index, state, frame)
+        return True
 
     def solutions(self, state: State, frame: Frame) -> Iterator[None]:
-        """Bind the frame to one solution after the other; counts what it tries as work of the state."""
-        goals = self.goals
-        count = len(goals)
-        choices: list[tuple[int, Iterator[None]]] = []
-        index = 0
-        while True:
-            first = index
-            while index < count:
-                goal = goals[index]
-                if isinstance(goal, Check):
-                    if not goal.holds(state, frame):
-                        break
-                else:
-                    iterator = goal.solutions(state, frame)
-                    if next(iterator, iterator) is iterator:
-                        break
-                    choices.append((index, iterator))
-                index += 1
-            else:
-                yield
-            state.work += index - first + 1
-            if state.work > state.next_look:
-                state.look()
-            while choices:
-                index, iterator = choices[-1]
-                if next(iterator, iterator) is iterator:
-                    choices.pop()
-                else:
-                    index += 1
-                    break
-            else:
-                return
+        """Bind the frame to one solution after the other."""
+        found = self.begin(state, frame)
+        if found is True:
+            yield
+        elif found is not False:
+            yield from found
 
     def holds(self, state: State, frame: Frame) -> bool:
         """Whether there is a solution; the frame is left as it was."""
-        trial = frame if self._only_checks else frame.copy()
-        return any(True for _ in self.solutions(state, trial))
+        found = self.begin(state, frame.copy() if self.binds else frame)
+        if found is True or found is False:
+            return found
+        return any(True for _ in found)
+
+    def _enumerate(
+        self, first: Iterator[None], index: int, state: State, frame: Frame
+    ) -> Iterator[None]:
+        """All solutions of ``first`` and of the goals from ``index`` on; counts what it tries as work."""
+        steps = self._steps
+        count = len(steps)
+        choices: list[tuple[int, Iterator[None]]] = [(index, first)]
+        while choices:
+            index, iterator = choices[-1]
+            if next(iterator, iterator) is iterator:
+                choices.pop()
+                continue
+            begun = index
+            while index < count:
+                found = steps[index](state, frame)
+                index += 1
+                if found is True:
+                    continue
+                if found is not False:
+                    choices.append((index, found))
+                break
+            else:
+                yield
+            state.work += index - begun + 1
+            if state.work > state.next_look:
+                state.look()
 
     def first_failure(self, state: State, frame: Frame) -> str:
         """The first goal that cannot be met, with the bindings of the first solution before it."""
@@ -84,20 +102,51 @@ class Conjunction:
         return ''
 
 
-def disjunction(alternatives: Sequence[Conjunction]) -> Callable[[State, Frame], Iterator[None]]:
-    """The solutions of one alternative after the other."""
+def restoring(slots: Sequence[int], solutions: Begin) -> Begin:
+    """The same solutions, after which the ``slots`` are as they were before."""
+    places = tuple(slots)
+
+    def begin(state: State, frame: Frame) -> Found:
+        before = [frame[slot] for slot in places]
+        found = solutions(state, frame)
+        if found is False:
+            put(before, frame)
+            return False
+        return again(found, before, frame)
+
+    def again(found: Found, before: list[Any], frame: Frame) -> Iterator[None]:
+        if found is True:
+            yield
+        elif found is not False:
+            yield from found
+        put(before, frame)
+
+    def put(before: list[Any], frame: Frame) -> None:
+        for slot, value in zip(places, before, strict=True):
+            frame[slot] = value
+
+    return begin
+
+
+def disjunction(alternatives: Sequence[Conjunction], slots: Sequence[int]) -> Begin:
+    """The solutions of one alternative after the other; ``slots`` are all that they may bind."""
+    parts = [restoring(slots, part.begin) for part in alternatives]
+    if not any(part.binds for part in alternatives):
+        return lambda state, frame: any(part.begin(state, frame) for part in alternatives)
 
     def solutions(state: State, frame: Frame) -> Iterator[None]:
-        for alternative in alternatives:
-            yield from alternative.solutions(state, frame)
+        for part in parts:
+            found = part(state, frame)
+            if found is not False and found is not True:
+                yield from found
 
     return solutions
 
 
-def negation(condition: Conjunction) -> Callable[[State, Frame], bool]:
+def negation(condition: Conjunction) -> Begin:
     """Negation as failure; counts as satisfied in a relaxed state."""
 
-    def holds(state: State, frame: Frame) -> bool:
+    def begin(state: State, frame: Frame) -> bool:
         return state.relaxed or not condition.holds(state, frame)
 
-    return holds
+    return begin

@@ -4,18 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
-from task_planner_node.language.model import shorten, show
 from task_planner_node.search.network import Task
 
 MOST_RECORDED = 1000
+
+
+class Reason(NamedTuple):
+    """Why a task could not be done; ``unmet`` are the literals that it failed at."""
+
+    text: str
+    unmet: tuple[str, ...] = ()
 
 
 @dataclass(slots=True)
 class DeadEnd:
     """A task that could not be done.
 
-    ``objects`` are labels to look for in the problem, ``unmet`` the literals that nothing can make true.
+    ``objects`` are labels to look for in the problem, ``unmet`` the literals that do not hold, or in a proof those
+    that nothing can make true.
     """
 
     task: Task
@@ -25,41 +33,58 @@ class DeadEnd:
     unmet: tuple[str, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Farthest:
+    """The longest partial plan: how many actions it has, the last of them, and what it ended at, if that is known."""
+
+    actions: int = 0
+    last: tuple[Task, ...] = ()
+    end: DeadEnd | None = None
+
+
 @dataclass(slots=True)
 class DeadEnds:
-    """Dead ends grouped by task and kind; the reason of each group is that of its first."""
+    """Dead ends grouped by task and kind; the reason of each group is that of its first.
+
+    ``latest`` is the group that was counted last.
+    """
 
     groups: dict[tuple[Task, str], DeadEnd] = field(default_factory=dict)
+    latest: DeadEnd | None = None
 
     def add(
         self,
         task: Task,
         kind: str,
-        reason: str | Callable[[], str],
+        reason: str | Callable[[], Reason],
         objects: tuple[str, ...] = (),
     ) -> None:
         """Count a dead end; a callable ``reason`` is only asked when it is the first of its group."""
         group = self.groups.get((task, kind))
         if group is None:
             if len(self.groups) >= MOST_RECORDED:
+                self.latest = None
                 return
-            group = self.groups[(task, kind)] = DeadEnd(
-                task, reason if isinstance(reason, str) else reason(), objects
-            )
+            text, unmet = Reason(reason) if isinstance(reason, str) else reason()
+            group = self.groups[task, kind] = DeadEnd(task, text, objects, unmet=unmet)
         group.count += 1
+        self.latest = group
 
-    def lines(self, limit: int) -> list[str]:
-        """The groups as text, the most frequent first, at most ``limit`` of them."""
-        return describe(sorted(self.groups.values(), key=lambda group: -group.count), limit)
+    def most_frequent(self) -> list[DeadEnd]:
+        """The groups, those that were counted most often first."""
+        return sorted(self.groups.values(), key=lambda group: -group.count)
 
 
-def describe(groups: Iterable[DeadEnd], limit: int) -> list[str]:
-    """One line for each of the first ``limit`` dead ends, and how many more there are."""
-    found = list(groups)
-    lines = []
-    for group in found[:limit]:
-        times = f' ({group.count} times)' if group.count > 1 else ''
-        lines.append(f'{shorten(show(group.task))}: {group.reason}{times}')
-    if len(found) > limit:
-        lines.append(f'... and {len(found) - limit} more')
-    return lines
+def not_satisfied(failures: Iterable[tuple[str, str]]) -> Reason:
+    """The reason when preconditions fail: the branch, empty if there is but one, and its first literal that fails."""
+    branches: dict[str, list[str]] = {}
+    for branch, literal in failures:
+        if literal:
+            branches.setdefault(literal, []).append(branch)
+    if not branches:
+        return Reason('preconditions not met')
+    parts = [
+        f'{literal} in {" and ".join(names)}' if all(names) else literal
+        for literal, names in branches.items()
+    ]
+    return Reason(f'precondition not met: {", ".join(parts)}', tuple(branches))

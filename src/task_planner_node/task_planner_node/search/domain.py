@@ -2,254 +2,183 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Protocol
 
-from task_planner_node.errors import MissionError
-from task_planner_node.language.checks import VARIABLE
+from task_planner_node.errors import Diagnostic
 from task_planner_node.language.model import (
     Atom,
     Axiom,
+    Condition,
     Domain,
-    GeometricText,
+    Effect,
+    ForEach,
+    Immediate,
     Method,
     Operator,
-    Ordered,
+    Problem,
+    Protection,
     TaskNetwork,
-    show,
 )
-from task_planner_node.search.compilation import Call, Compiler
+from task_planner_node.search.axioms import DerivedPredicate
+from task_planner_node.search.compilation import Compiler
 from task_planner_node.search.conditions import Conjunction
-from task_planner_node.search.network import Network, Task, parallel
-from task_planner_node.search.state import Fact, IndexPlan, State
-from task_planner_node.search.terms import Frame, Slots, builder, match, matcher, slots_of
+from task_planner_node.search.early import Early
+from task_planner_node.search.methods import CompiledMethod, Grow, Networks, compile_method
+from task_planner_node.search.network import Network, Task
+from task_planner_node.search.operators import CompiledOperator, compile_operator
+from task_planner_node.search.state import IndexPlan, State
+from task_planner_node.search.structure import least_costs, names_above, recursive_names
+from task_planner_node.search.terms import Frame, Slots
+from task_planner_node.search.unbound import known
 
-Matcher = Callable[[Frame, Task], bool]
-Build = Callable[[Frame], tuple[Any, ...]]
-Grow = Callable[[Frame, Network], Network]
+
+class Start(Protocol):
+    """What is to be done, and what is to hold in the end."""
+
+    def networks(self, state: State) -> Iterator[Network]:
+        """The networks to begin with: each is a choice."""
+
+    def reached(self, state: State) -> bool:
+        """Whether the goal holds."""
+
+    def unmet(self, state: State) -> str:
+        """The first part of the goal that does not hold."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class CompiledOperator:
-    """An operator; ``text`` grounds its geometric preconditions, and is None when it has none."""
+class Beginning:
+    """The tasks of a problem, one network for each solution of its precondition, and its goal."""
 
-    name: str
+    condition: Conjunction
     template: Frame
-    matches: Matcher
-    condition: Conjunction
-    deletes: tuple[Build, ...]
-    adds: tuple[Build, ...]
-    cost: float
-    internal: bool
-    text: Callable[[Frame], str] | None
-    assigns: bool
-
-    def bind(self, task: Task) -> Frame | None:
-        """A frame with the head's variables bound, or None when the head does not fit."""
-        frame = self.template.copy()
-        return frame if self.matches(frame, task) else None
-
-    def apply(self, state: State, deletes: Sequence[Fact], adds: Sequence[Fact]) -> None:
-        """Change ``state`` by ground effects, the deletions first."""
-        for fact in deletes:
-            state.remove(fact)
-        for fact in adds:
-            state.add(fact)
-
-    def effects(self, frame: Frame) -> tuple[list[Fact], list[Fact]]:
-        """Ground deletions and additions."""
-        return [fact(frame) for fact in self.deletes], [fact(frame) for fact in self.adds]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class CompiledBranch:
-    """A branch; ``grow`` puts its ground tasks in front of a network."""
-
-    name: str
-    condition: Conjunction
     grow: Grow
+    goal: Conjunction
+    goal_template: Frame
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class CompiledMethod:
-    """A method; its branches share one frame."""
-
-    template: Frame
-    matches: Matcher
-    branches: tuple[CompiledBranch, ...]
-
-    @property
-    def unconditional(self) -> bool:
-        """Whether it always decomposes in one and the same way."""
-        return len(self.branches) == 1 and not self.branches[0].condition.goals
-
-    def bind(self, task: Task) -> Frame | None:
-        """A frame with the head's variables bound, or None when the head does not fit."""
+    def networks(self, state: State) -> Iterator[Network]:
+        """The networks to begin with."""
         frame = self.template.copy()
-        return frame if self.matches(frame, task) else None
+        for _ in self.condition.solutions(state, frame):
+            yield self.grow(frame, None, None)
+
+    def reached(self, state: State) -> bool:
+        """Whether the goal holds."""
+        return self.goal.holds(state, self.goal_template)
+
+    def unmet(self, state: State) -> str:
+        """The first part of the goal that does not hold."""
+        return self.goal.first_failure(state, self.goal_template)
 
 
 class CompiledDomain:
     """All definitions by name.
 
-    ``assigning`` names the operators whose geometric preconditions set an attitude.
+    ``assigning`` names the operators whose geometric preconditions set an attitude.  ``geometric`` tells whether any
+    operator has geometric preconditions, ``immediate`` whether any task has priority, ``loose`` whether tasks may
+    have arguments without a value.  ``recursive`` names the tasks that may come up again below themselves;
+    ``may_assign`` those below which an attitude may be set; ``least_costs`` are lower bounds of the cost of tasks by name.
     """
 
     def __init__(self, domain: Domain, assigning: frozenset[str] = frozenset()) -> None:
-        compiler = Compiler()
-        compiler.axiom_heads = frozenset((a.head.name, len(a.head.args)) for a in domain.axioms)
-        for head in sorted(compiler.axiom_heads):
-            compiler.axioms[head] = _compile_axioms(domain, head, compiler)
-        self.operators: Mapping[str, CompiledOperator] = {
-            operator.head.name: _compile_operator(operator, compiler, assigning)
-            for operator in domain.operators
-        }
-        self.methods: dict[str, list[CompiledMethod]] = {}
+        self._domain = domain
+        self._compiler = compiler = Compiler()
+        self._assigning = assigning
+        self._early = Early(domain)
+        effects = [e for o in domain.operators for e in (*o.deletes, *o.adds)]
+        self._protecting = any(isinstance(effect, Protection) for effect in _flat(effects))
+        heads: dict[tuple[str, int], list[Axiom]] = {}
+        for axiom in domain.axioms:
+            heads.setdefault((axiom.head.name, len(axiom.head.args)), []).append(axiom)
+        for (name, arity), axioms in heads.items():
+            predicate = DerivedPredicate(name, arity, axioms, domain.source, compiler)
+            compiler.axioms[name, arity] = predicate
+        self._texts: dict[str, Operator] = {o.head.name: o for o in domain.operators}
+        self._method_texts: dict[str, list[Method]] = {}
         for method in domain.methods:
-            compiled = _compile_method(method, compiler)
-            self.methods.setdefault(method.head.name, []).append(compiled)
+            self._method_texts.setdefault(method.head.name, []).append(method)
+        self.operators: Mapping[str, CompiledOperator] = {
+            name: self._operator(name) for name in self._texts
+        }
+        self.methods: Mapping[str, list[CompiledMethod]] = {
+            name: self._methods(name) for name in self._method_texts
+        }
+        self._variants: dict[tuple[str, tuple[bool, ...]], CompiledOperator] = {}
+        self._method_variants: dict[tuple[str, tuple[bool, ...]], list[CompiledMethod]] = {}
+        self.geometric = any(operator.text is not None for operator in self.operators.values())
+        self.recursive = recursive_names(self.methods)
+        self.may_assign = names_above(self.methods, assigning)
+        self.least_costs = least_costs(self.operators, self.methods)
+        networks = [branch.tasks for method in domain.methods for branch in method.branches]
+        self.immediate = any(_is_immediate(network) for network in networks)
+        self.loose = any(b.loose for ms in self.methods.values() for m in ms for b in m.branches)
         self.plan: IndexPlan = compiler.plan
 
-    def initial_network(self, tasks: TaskNetwork) -> Network:
-        """The ground tasks of a problem."""
-        slots = Slots()
-        grow = _compile_tasks(tasks, slots)
-        return grow(slots.template, None)
+    def _operator(self, name: str, given: Sequence[bool] | None = None) -> CompiledOperator:
+        return compile_operator(
+            self._texts[name],
+            self._compiler,
+            self._domain.source,
+            self._assigning,
+            self._protecting,
+            given,
+        )
+
+    def _methods(self, name: str, given: Sequence[bool] | None = None) -> list[CompiledMethod]:
+        return [
+            compile_method(method, number, self._compiler, self._domain.source, self._early, given)
+            for number, method in enumerate(self._method_texts[name], start=1)
+        ]
+
+    def operator_for(self, task: Task) -> CompiledOperator:
+        """The operator of a task some of whose arguments have no value."""
+        key = (task[0], known(task))
+        if key not in self._variants:
+            self._variants[key] = self._operator(*key)
+        return self._variants[key]
+
+    def methods_for(self, task: Task) -> list[CompiledMethod]:
+        """The methods of a task some of whose arguments have no value."""
+        if task[0] not in self.methods:
+            return []
+        key = (task[0], known(task))
+        if key not in self._method_variants:
+            self._method_variants[key] = self._methods(*key)
+        return self._method_variants[key]
+
+    def place_of(self, operator: str, message: str) -> Diagnostic:
+        """An error at the head of an operator."""
+        node = self._texts[operator].head.node
+        return self._domain.source.diagnostic(node.start, node.end, message)
+
+    def beginning(self, problem: Problem) -> Beginning:
+        """The tasks and the goal of a problem."""
+        source = problem.source
+        slots = Slots(source)
+        bound: set[int] = set()
+        condition = self._compiler.condition(problem.precondition, slots, bound)
+        networks = Networks(slots, bound)
+        grow = networks.with_unbound(networks.compile(problem.tasks))
+        self.loose = self.loose or networks.loose
+        self.immediate = self.immediate or _is_immediate(problem.tasks)
+        goal_slots = Slots(source)
+        goal = self._condition(problem.goal, goal_slots)
+        return Beginning(condition, slots.template, grow, goal, goal_slots.template)
+
+    def _condition(self, condition: Condition, slots: Slots) -> Conjunction:
+        return self._compiler.condition(condition, slots, set())
 
 
-def _head(atom: Atom, slots: Slots) -> tuple[Matcher, set[int]]:
-    terms = [slots.compile(argument) for argument in atom.args]
-    matches = matcher(terms, slots)
-    return matches, set(range(len(slots.template)))
-
-
-def _compile_operator(
-    operator: Operator, compiler: Compiler, assigning: frozenset[str]
-) -> CompiledOperator:
-    slots = Slots()
-    matches, bound = _head(operator.head, slots)
-    condition = compiler.condition(operator.condition, slots, bound)
-    deletes = tuple(_fact_builder(effect, slots) for effect in operator.deletes)
-    adds = tuple(_fact_builder(effect, slots) for effect in operator.adds)
-    text = _text_builder(operator.geometric, slots) if operator.geometric else None
-    return CompiledOperator(
-        operator.head.name,
-        slots.template,
-        matches,
-        condition,
-        deletes,
-        adds,
-        operator.cost,
-        operator.internal,
-        text,
-        operator.head.name in assigning,
-    )
-
-
-def _fact_builder(atom: Atom, slots: Slots) -> Build:
-    return builder([slots.constant(atom.name), *(slots.compile(arg) for arg in atom.args)])
-
-
-def _text_builder(geometric: GeometricText, slots: Slots) -> Callable[[Frame], str]:
-    """Split the text at its variables once; white space is reduced to single blanks."""
-    text = ' '.join(geometric.text.split())
-    pieces: list[str] = []
-    variables: list[int] = []
-    end = 0
-    for occurrence in VARIABLE.finditer(text):
-        pieces.append(text[end : occurrence.start()])
-        variables.append(slots.variable(occurrence.group()))
-        end = occurrence.end()
-    last = text[end:]
-
-    def ground(frame: Frame) -> str:
-        parts: list[str] = []
-        for piece, slot in zip(pieces, variables, strict=True):
-            parts.append(piece)
-            value = frame[slot]
-            parts.append(value if isinstance(value, str) else show(value))
-        parts.append(last)
-        return ''.join(parts)
-
-    return ground
-
-
-def _compile_method(method: Method, compiler: Compiler) -> CompiledMethod:
-    slots = Slots()
-    matches, head = _head(method.head, slots)
-    branches = []
-    for branch in method.branches:
-        condition = compiler.condition(branch.condition, slots, set(head))
-        branches.append(CompiledBranch(branch.name, condition, _compile_tasks(branch.tasks, slots)))
-    return CompiledMethod(slots.template, matches, tuple(branches))
-
-
-def _compile_tasks(network: TaskNetwork, slots: Slots) -> Grow:
-    if isinstance(network, Atom):
-        task = _fact_builder(network, slots)
-        return lambda frame, rest: (task(frame), rest)
-    parts = [_compile_tasks(item, slots) for item in network.items]
-    if isinstance(network, Ordered):
-        backwards = parts[::-1]
-
-        def grow(frame: Frame, rest: Network) -> Network:
-            for part in backwards:
-                rest = part(frame, rest)
-            return rest
-
-        return grow
-    return lambda frame, rest: parallel([part(frame, None) for part in parts], rest)
-
-
-def _compile_axioms(domain: Domain, head: tuple[str, int], compiler: Compiler) -> Call:
-    calls = [
-        _compile_axiom(domain, axiom, compiler)
-        for axiom in domain.axioms
-        if (axiom.head.name, len(axiom.head.args)) == head
-    ]
-    name, arity = head
-    number = compiler.plan.number(name, arity, ())
-
-    def call(state: State, arguments: tuple[Any, ...]) -> Iterator[Fact]:
-        if None not in arguments:
-            if (name, *arguments) in state.facts:
-                yield (name, *arguments)
+def _flat(effects: Iterable[Effect]) -> Iterator[Effect]:
+    for effect in effects:
+        if isinstance(effect, ForEach):
+            yield from _flat(effect.effects)
         else:
-            yield from state.buckets[number].get((), ())
-        for axiom in calls:
-            yield from axiom(state, arguments)
-
-    return call
+            yield effect
 
 
-def _compile_axiom(domain: Domain, axiom: Axiom, compiler: Compiler) -> Call:
-    slots = Slots()
-    terms = [slots.compile(argument) for argument in axiom.head.args]
-    # Any head variable may be unbound when the axiom is called, so none counts as surely bound;
-    # the condition compiler treats them as possibly bound.
-    bodies = [compiler.axiom_body(body, slots) for body in axiom.bodies]
-    fact = _fact_builder(axiom.head, slots)
-    template = slots.template
-    head_slots = sorted(set().union(*(slots_of(term) for term in terms)))
-
-    def call(state: State, arguments: tuple[Any, ...]) -> Iterator[Fact]:
-        frame = template.copy()
-        for term, argument in zip(terms, arguments, strict=True):
-            if argument is not None and not match(term, argument, frame, []):
-                return
-        for body in bodies:
-            found = False
-            for _ in body.solutions(state, frame):
-                found = True
-                if any(frame[slot] is None for slot in head_slots):
-                    message = (
-                        f'{show(axiom.head)} is asked for with arguments that it does not bind'
-                    )
-                    node = axiom.head.node
-                    raise MissionError([domain.source.diagnostic(node.start, node.end, message)])
-                yield fact(frame)
-            if found and not state.relaxed:
-                return
-
-    return call
+def _is_immediate(network: TaskNetwork) -> bool:
+    if isinstance(network, Immediate):
+        return True
+    return not isinstance(network, Atom) and any(_is_immediate(item) for item in network.items)

@@ -1,316 +1,288 @@
-"""The search itself: an explicit stack of nodes, each with its lazily enumerated moves."""
+"""The search itself: straight on while there is one way, an explicit stack of choices where there are several."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from math import inf
+from collections.abc import Callable
 
 from task_planner_node.errors import LimitReached
 from task_planner_node.language.model import shorten, show
-from task_planner_node.oracle import Answer, Status, Token
-from task_planner_node.search.closed import Closed
-from task_planner_node.search.dead_ends import DeadEnd, DeadEnds
-from task_planner_node.search.domain import CompiledDomain, CompiledMethod
+from task_planner_node.oracle import Token
+from task_planner_node.search.closed import Visited
+from task_planner_node.search.dead_ends import DeadEnd, DeadEnds, Farthest
+from task_planner_node.search.domain import CompiledDomain, Start
 from task_planner_node.search.geometry import Geometry
-from task_planner_node.search.guidance import leading_text
-from task_planner_node.search.network import (
-    Network,
-    Path,
-    Task,
-    all_tasks,
-    first_tasks,
-    replace,
-    rest_after,
+from task_planner_node.search.loosely import shape
+from task_planner_node.search.network import Network, Parallel, Task, all_tasks
+from task_planner_node.search.operators import CompiledOperator
+from task_planner_node.search.partial_plan import (
+    Expansion,
+    Limits,
+    Node,
+    Position,
+    Way,
+    Whereabouts,
 )
-from task_planner_node.search.partial_plan import Limits, Node, Step
-from task_planner_node.search.relaxation import no_definition_fits, prove_dead
+from task_planner_node.search.plans import Plan, Plans
+from task_planner_node.search.relaxation import prove_dead
 from task_planner_node.search.state import State
 from task_planner_node.search.statistics import Statistics
-from task_planner_node.search.terms import Frame
+from task_planner_node.search.ways import Ways
 
 CHECK_INTERVAL = 64
-# The methods whose heads fit a task, each with its frame.
-Fitting = list[tuple[CompiledMethod, Frame]]
+# A relaxation of the whole mission is examined when this many choices were taken back.
+PATIENCE = 1000
+# So many of the last decompositions and actions of the longest partial plan are kept.
+MOST_NOTED = 200
+# A task is looked for among so many of those that it came from.
+MOST_ANCESTORS = 100
 
 
 class Search:
     """Depth-first search over task choices, methods, bindings and geometric alternatives.
 
-    ``check`` is called every CHECK_INTERVAL nodes and raises to end the search.
+    ``check`` is called every CHECK_INTERVAL decompositions and raises to end the search; ``found`` hears each plan
+    that is better than all before.
     """
 
     def __init__(
         self,
         domain: CompiledDomain,
+        beginning: Start,
         state: State,
         geometry: Geometry,
         statistics: Statistics,
         limits: Limits,
         check: Callable[[], None],
+        found: Callable[[Plan], None] = lambda _: None,
     ) -> None:
         self.dead_ends = DeadEnds()
         self.proofs: dict[Task, DeadEnd] = {}
-        self.best: tuple[Step, ...] | None = None
-        self.best_length = inf
         self.deepest = 0
+        self.farthest = Farthest()
         self.proven = True
         self.stack: list[Node] = []
-        self._closed = Closed()
+        self.position: Position | None = None
+        self.log: list[Expansion] = []
+        self.plans = Plans(limits, found)
+        self.visited = Visited(limits.optimise, limits.plans > 1)
         self._domain = domain
+        self._beginning = beginning
         self._state = state
         self._geometry = geometry
         self._statistics = statistics
         self._limits = limits
         self._check = check
+        self._ways = Ways(self, domain, beginning, state, geometry, limits)
+        self._repeats = 0
+        self._steps = 0
 
-    def run(self, network: Network, start: Token) -> None:
-        """Search; the plan is left in ``best``, and ``proven`` tells whether its absence is a proof.
+    def run(self, start: Token) -> None:
+        """Search; the plans are left in ``plans``, and ``proven`` tells whether there are no others.
 
         Raises LimitReached, Cancelled, GeometryUnavailable, GeometryFailed and MissionError.
         """
-        root = Node(network, start, start, mark=self._state.mark(), tested=-1)
-        root.moves = self._moves(root)
-        stack = self.stack = [root]
-        if network is None:
-            self._accept()
-            return
-        nodes = 0
+        where = self._first = Whereabouts(start, start, 0.0)
+        while True:
+            root = self._node((None, where, 0.0, 0.0, 0, False, None))
+            root.moves = self._ways.beginnings(where)
+            self.stack.append(root)
+            position = self._advance()
+            while position is not None:
+                if self._forward(position):
+                    return
+                position = self._backward()
+            self.proven = not root.unproven
+            if not root.postponed:
+                if not self.plans.kept and not self._domain.geometric:
+                    self._hopeless_from_the_start()
+                return
+            # What leads back to the same task in the same state is tried once more often than before.
+            self._repeats += 1
+            self.visited.forget()
+
+    @property
+    def best(self) -> Plan | None:
+        """The best plan so far."""
+        return self.plans.best
+
+    def _node(self, position: Position) -> Node:
+        return Node(
+            position,
+            self._state.mark(),
+            len(self.log),
+            len(self.visited.order),
+            self._geometry.version,
+        )
+
+    def _advance(self) -> Position | None:
+        """The next position of the last choice that has one."""
+        stack, state, geometry = self.stack, self._state, self._geometry
         while stack:
             node = stack[-1]
-            self._state.undo(node.mark)
-            if node.tested != self._geometry.version:
-                node.tested = self._geometry.version
-                if self._dead(node):
+            if node.tested != geometry.version:
+                node.tested = geometry.version
+                if self.hopeless(node.network, node.where):
                     stack.pop()
+                    self._undo(node)
                     self._statistics.backtracks += 1
                     continue
-            child = next(node.moves, node)
-            if child is node:
+            child = next(node.moves, None)
+            if child:
+                return child
+            if child is None:
                 stack.pop()
-                self._closed.add(node.network, self._state, node.start, node.length, node.unproven)
                 self._statistics.backtracks += 1
                 if stack:
                     stack[-1].unproven |= node.unproven
-                else:
-                    self.proven = not node.unproven
-                continue
-            if child is None:
-                continue
-            nodes += 1
-            if nodes % CHECK_INTERVAL == 0:
-                self._check()
-            if child.length >= self.best_length:
-                continue
-            seen = self._seen(child)
-            if seen is not None:
-                node.unproven |= seen
-                self._statistics.backtracks += 1
-                continue
-            stack.append(child)
-            self.deepest = max(self.deepest, child.actions)
-            if child.network is None:
-                self._accept()
-                if not self._limits.optimise:
-                    return
-                stack.pop()
-            elif len(stack) > self._limits.max_depth:
-                raise LimitReached(self._too_deep(child))
+                    stack[-1].postponed |= node.postponed
+                    self._undo(stack[-1])
+            else:
+                state.undo(node.mark)
+        return None
 
-    def _seen(self, node: Node) -> bool | None:
+    def _backward(self) -> Position | None:
+        self._statistics.backtracks += 1
+        waited = self._statistics.backtracks == PATIENCE and not self._domain.geometric
+        if waited and self._hopeless_from_the_start():
+            self._end()
+        if self.stack:
+            self._undo(self.stack[-1])
+        return self._advance()
+
+    def _end(self) -> None:
+        """Leave everything that is still open."""
+        if self.stack:
+            self._undo(self.stack[0])
+            self.stack[0].unproven = self.stack[0].postponed = False
+            self.stack.clear()
+
+    def _undo(self, node: Node) -> None:
+        if self.deepest > self.farthest.actions:
+            self.note_farthest()
+        self._state.undo(node.mark)
+        del self.log[node.logged :]
+        self.visited.close(node)
+
+    def _forward(self, position: Position) -> bool:
+        """Go on from a position as far as there is a way; True when all plans that are wanted are found."""
+        statistics, plans, ways = self._statistics, self.plans, self._ways
         optimise = self._limits.optimise
-        return self._closed.find(node.network, self._state, node.start, node.length, optimise)
+        way: Way
+        while True:
+            self.position = position
+            network, where, cost, rest_cost, actions, _, chosen = position
+            if actions > self.deepest:
+                self.deepest = actions
+                self.dead_ends.latest = None
+            if optimise and cost + rest_cost >= plans.bound:
+                return False
+            if network is None:
+                return self._accept(where, cost)
+            if chosen is not None:
+                way = ways.expand(position, chosen.cell, chosen.path, chosen.focus)
+            elif type(network[0]) is Parallel:
+                if self.visits(network, where, cost):
+                    return False
+                way = ways.candidates(position)
+            else:
+                way = ways.expand(position, network, (), focus=False)
+            if isinstance(way, tuple):
+                position = way
+            elif way is None:
+                return False
+            else:
+                node = self._node(position)
+                node.moves = way
+                self.stack.append(node)
+                following = self._advance()
+                if following is None:
+                    return False
+                position = following
+            if position[6] is None:
+                statistics.decompositions += 1
+            self._steps += 1
+            if not self._steps % CHECK_INTERVAL:
+                self._look(network)
 
-    def _accept(self) -> None:
-        node = self.stack[-1]
-        if self.best is None or node.length < self.best_length:
-            self.best = tuple(entry.step for entry in self.stack if entry.step is not None)
-            self.best_length = node.length
+    def visits(self, network: Network, where: Whereabouts, cost: float) -> bool:
+        """Note that the search comes to a network; whether it need not go on there."""
+        entry = self.visited.enter(network, self._state, where.start, cost)
+        if entry is None:
+            return False
+        self.stack[-1].unproven |= entry.unproven
+        if entry.open:
+            task = next(all_tasks(network))
+            self.dead_ends.add(
+                task, 'circle', 'it comes up again with the same left to do in the same state'
+            )
+        return True
 
-    def _too_deep(self, node: Node) -> str:
-        tasks = first_tasks(node.network)
-        task = shorten(show(tasks[0][0])) if tasks else ''
-        return f'more than {self._limits.max_depth} nested choices, the last one at {task}'
+    def repeats(self, task: Task, parent: Expansion | None, since: tuple[int, int]) -> bool:
+        """Whether a task came up below itself in the same state more often than this round allows.
 
-    def _dead(self, node: Node) -> bool:
+        It is then left for a later round.
+        """
+        allowed = self._repeats
+        loose = self._domain.loose
+        wanted = shape(task) if loose else task
+        for _ in range(MOST_ANCESTORS):
+            if parent is None or parent.since != since:
+                return False
+            if parent.task == task or (loose and shape(parent.task) == wanted):
+                if not allowed:
+                    self.stack[-1].postponed = True
+                    return True
+                allowed -= 1
+            parent = parent.parent
+        return False
+
+    def give_up(self) -> None:
+        """Note that something was left at the last choice without a proof."""
+        self.stack[-1].unproven = True
+
+    def note_farthest(self) -> None:
+        """Keep the last actions of the partial plan on the log, and what it could not go on with."""
+        last = tuple(
+            [
+                expansion.task
+                for expansion in self.log[-MOST_NOTED:]
+                if isinstance(expansion.by, CompiledOperator) and not expansion.by.internal
+            ]
+        )
+        self.farthest = Farthest(self.deepest, last, self.dead_ends.latest)
+
+    def _look(self, network: Network) -> None:
         self._check()
-        tasks = all_tasks(node.network)
-        reasons = prove_dead(self._domain, self._state, self._geometry, tasks, node.lineage)
+        if len(self.log) > self._limits.max_depth:
+            task = next(iter(all_tasks(network)), ())
+            raise LimitReached(
+                f'more than {self._limits.max_depth} decompositions in one plan, the last one of '
+                f'{shorten(show(task))}'
+            )
+
+    def _accept(self, where: Whereabouts, cost: float) -> bool:
+        if not self._beginning.reached(self._state):
+            unmet = self._beginning.unmet(self._state)
+            self.dead_ends.add(('goal',), 'goal', f'not reached when all is done: {unmet}')
+            return False
+        self.plans.add(self.log, self._state.history(), where.length, cost)
+        return self.plans.enough
+
+    def _hopeless_from_the_start(self) -> bool:
+        """Whether the relaxation of the whole mission proves that there is no plan."""
+        state = self._state.initial()
+        networks = self._beginning.networks(state)
+        self._state, now = state, self._state
+        try:
+            return all(self.hopeless(network, self._first) for network in networks)
+        finally:
+            self._state = now
+
+    def hopeless(self, network: Network, where: Whereabouts) -> bool:
+        """Whether a relaxation proves that some task of the network cannot be done any more."""
+        self._check()
+        tasks = all_tasks(network)
+        reasons = prove_dead(self._domain, self._state, self._geometry, tasks, where.lineage)
         for reason in reasons:
             self.proofs.setdefault(reason.task, reason)
         return bool(reasons)
-
-    def _moves(self, node: Node) -> Iterator[Node | None]:
-        """The children of a node in the order to try; None asks for another look at the node itself."""
-        candidates = first_tasks(node.network)
-        fits: dict[Path, Fitting] = {}
-        for task, path in candidates:
-            if task[0] in self._domain.operators:
-                continue
-            fitting = self._fitting(task)
-            if not fitting:
-                self.dead_ends.add(task, 'head', no_definition_fits(task, primitive=False))
-                return
-            fits[path] = fitting
-            method, frame = fitting[0]
-            if len(fitting) == 1 and method.unconditional:
-                # What it decomposes into depends on nothing that another task could change.
-                self._statistics.decompositions += 1
-                rest = rest_after(node.network, path)
-                branch = method.branches[0].grow(frame, rest)
-                yield self._child(node, replace(node.network, path, branch, to_front=False))
-                return
-        if len(candidates) == 1:
-            yield from self._expand(node, *candidates[0], fits)
-            return
-        if node.focused:
-            yield from self._expand(node, *candidates[0], fits)
-            candidates = candidates[1:]
-        version = self._geometry.version
-        ordered = self._in_advised_order(node, candidates)
-        if self._geometry.version != version:
-            yield None
-        for task, path in ordered:
-            yield from self._expand(node, task, path, fits)
-
-    def _in_advised_order(
-        self, node: Node, candidates: list[tuple[Task, Path]]
-    ) -> list[tuple[Task, Path]]:
-        """Candidates whose first motion is known change places among themselves, the others stay."""
-        if not self._limits.use_advice:
-            return candidates
-        texts = [leading_text(self._domain, self._state, task) for task, _ in candidates]
-        known = [text for text in texts if text is not None]
-        ranks = self._geometry.ranks(node.start, node.lineage, known, ask=not node.focused)
-        places = [i for i, text in enumerate(texts) if text is not None and text in ranks]
-        best_first = sorted(places, key=lambda i: ranks[texts[i] or ''])
-        ordered = list(candidates)
-        for place, chosen in zip(places, best_first, strict=True):
-            ordered[place] = candidates[chosen]
-        return ordered
-
-    def _fitting(self, task: Task) -> Fitting:
-        bound = ((method, method.bind(task)) for method in self._domain.methods.get(task[0], ()))
-        return [(method, frame) for method, frame in bound if frame is not None]
-
-    def _expand(
-        self, node: Node, task: Task, path: Path, fits: dict[Path, Fitting]
-    ) -> Iterator[Node | None]:
-        if task[0] in self._domain.operators:
-            return self._apply(node, task, path)
-        return self._decompose(node, task, path, fits[path])
-
-    def _decompose(
-        self, node: Node, task: Task, path: Path, fitting: Fitting
-    ) -> Iterator[Node | None]:
-        """SHOP2: every method whose head fits; of each the first branch that can be satisfied."""
-        network, state = node.network, self._state
-        rest = rest_after(network, path)
-        failures: list[str] = []
-        applied = False
-        for method, frame in fitting:
-            for branch in method.branches:
-                found = False
-                for _ in branch.condition.solutions(state, frame):
-                    found = True
-                    self._statistics.decompositions += 1
-                    grown = branch.grow(frame, rest)
-                    if path:
-                        grown = replace(network, path, grown, to_front=True)
-                    yield self._child(node, grown, focused=bool(path))
-                if found:
-                    applied = True
-                    break
-            else:
-                if not applied and (task, 'method') not in self.dead_ends.groups:
-                    failures += [b.condition.first_failure(state, frame) for b in method.branches]
-        if not applied:
-            self.dead_ends.add(task, 'method', lambda: _not_satisfied(failures))
-
-    def _apply(self, node: Node, task: Task, path: Path) -> Iterator[Node | None]:
-        """Symbolic preconditions first, then the geometric ones, then the effects."""
-        operator = self._domain.operators[task[0]]
-        frame = operator.bind(task)
-        if frame is None:
-            self.dead_ends.add(task, 'head', no_definition_fits(task, primitive=True))
-            return
-        state, network = self._state, node.network
-        after = rest_after(network, path)
-        if path:
-            after = replace(network, path, after, to_front=True)
-        action = () if operator.internal else tuple(show(part) for part in task)
-        satisfied = False
-        for _ in operator.condition.solutions(state, frame):
-            satisfied = True
-            deletes, adds = operator.effects(frame)
-            answers: Iterator[Answer | None] = iter((None,))
-            text = ''
-            if operator.text is not None:
-                text = operator.text(frame)
-                answers = self._answers(node, task, text)
-            for answer in answers:
-                if answer is not None and answer.status != Status.FOUND:
-                    yield None
-                    continue
-                self._statistics.decompositions += 1
-                operator.apply(state, deletes, adds)
-                step = Step(action, operator.cost, text, node.start, answer) if action else None
-                yield self._child(node, after, step=step, answer=answer)
-        if not satisfied:
-            self.dead_ends.add(
-                task,
-                'symbolic',
-                lambda: _not_satisfied([operator.condition.first_failure(state, frame)]),
-            )
-
-    def _answers(self, node: Node, task: Task, text: str) -> Iterator[Answer]:
-        """The geometric alternatives; an answer that is not FOUND tells that something was learnt."""
-        nogood = self._geometry.nogood(text, node.start, node.lineage)
-        if nogood is not None:
-            self.dead_ends.add(task, 'geometric', nogood.reason, nogood.objects)
-            return
-        version = self._geometry.version
-        alternatives = self._geometry.alternatives(task, text, node.start, node.lineage)
-        exhausted = True
-        for count, answer in enumerate(alternatives):
-            exhausted = answer.assigned
-            if answer.status == Status.FOUND:
-                yield answer
-                continue
-            exhausted = answer.status != Status.UNKNOWN
-            if count == 0:
-                self.dead_ends.add(task, str(answer.code), answer.message, answer.objects)
-            if version != self._geometry.version:
-                yield answer
-        node.unproven |= not exhausted
-
-    def _child(
-        self,
-        node: Node,
-        network: Network,
-        focused: bool = False,
-        step: Step | None = None,
-        answer: Answer | None = None,
-    ) -> Node:
-        start, lineage, length = node.start, node.lineage, node.length
-        if answer is not None:
-            start = answer.end
-            lineage = answer.end if answer.assigned else lineage
-            length += answer.length
-        child = Node(
-            network,
-            start,
-            lineage,
-            self._state.mark(),
-            self._geometry.version,
-            node.actions + (step is not None),
-            length,
-            focused,
-            step,
-        )
-        child.moves = self._moves(child)
-        return child
-
-
-def _not_satisfied(literals: Sequence[str]) -> str:
-    known = [literal for literal in dict.fromkeys(literals) if literal]
-    return f'precondition not met: {" or ".join(known)}' if known else 'preconditions not met'

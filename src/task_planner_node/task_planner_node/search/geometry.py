@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from task_planner_node.language.model import show
 from task_planner_node.oracle import (
     INVALID_CODES,
     Answer,
+    BatchOracle,
     Code,
     Oracle,
     Query,
@@ -21,6 +22,8 @@ from task_planner_node.search.network import Task
 from task_planner_node.search.statistics import Statistics
 
 MOST_ADVISED = 1000
+# Requests that are in flight at the same time.
+MOST_TOGETHER = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,18 +34,42 @@ class Nogood:
     objects: tuple[str, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Request:
+    """What the motion planner is asked: the ground texts of an operator, from where the robots stand.
+
+    ``lineage`` is the attitude that was last assigned.
+    """
+
+    task: Task
+    text: str
+    behaviour: str
+    start: Token
+    lineage: Token
+
+    @property
+    def key(self) -> str:
+        """The texts as one; no text has a line break in it."""
+        return f'{self.text}\n{self.behaviour}' if self.behaviour else self.text
+
+
+def _query(request: Request, alternative: int) -> Query:
+    action = tuple(show(part) for part in request.task)
+    return Query(action, request.text, request.start, alternative, request.behaviour)
+
+
 class RequestRefused(Exception):
     """The motion planner answered a request for ``task`` with an error.
 
     ``column`` of ``text``, the ground preconditions, is where it found the error, from 1; 0 is nowhere.
     """
 
-    def __init__(self, task: Task, text: str, answer: Answer) -> None:
+    def __init__(self, request: Request, answer: Answer) -> None:
         super().__init__(answer.message)
-        self.task = task
+        self.task = request.task
         self.code = answer.code
         self.message = answer.message
-        self.text = text
+        self.text = request.text
         self.column = 0
         if answer.diagnostics:
             first = answer.diagnostics[0]
@@ -71,12 +98,17 @@ class Geometry:
         self._answers: dict[tuple[str, Token, int], Answer] = {}
         self._nogoods: dict[tuple[Scope, Token, str], Nogood] = {}
         self._ranks: dict[Token, dict[str, int]] = {}
+        self._bounds: dict[Token, dict[str, float]] = {}
 
-    def nogood(self, text: str, start: Token, lineage: Token) -> Nogood | None:
-        """Why ``text`` cannot be met from ``start``, when that is proven already."""
-        return self.lasting_nogood(text, lineage) or self._nogoods.get(
-            (Scope.THIS_START, start, text)
-        )
+    def nogood(self, request: Request) -> Nogood | None:
+        """Why a request cannot be met, when that is proven already."""
+        for text in {request.text: None, request.key: None}:
+            found = self.lasting_nogood(text, request.lineage) or self._nogoods.get(
+                (Scope.THIS_START, request.start, text)
+            )
+            if found is not None:
+                return found
+        return None
 
     def lasting_nogood(self, text: str, lineage: Token | None) -> Nogood | None:
         """Why ``text`` cannot be met, now and after any drive.
@@ -88,33 +120,58 @@ class Geometry:
             return everywhere
         return self._nogoods.get((Scope.CONNECTED_STARTS, lineage, text))
 
-    def alternatives(self, task: Task, text: str, start: Token, lineage: Token) -> Iterator[Answer]:
+    def alternatives(self, request: Request) -> Iterator[Answer]:
         """One answer after the other: FOUND ones, ended by the first of another status.
 
         An assigned attitude is the only one.  The generator also ends at the limit of alternatives.
         """
         for alternative in range(self._max_alternatives):
-            answer = self._ask(task, text, start, lineage, alternative)
+            answer = self._ask(request, alternative)
             yield answer
             if answer.status != Status.FOUND or answer.assigned:
                 return
 
-    def _ask(self, task: Task, text: str, start: Token, lineage: Token, alternative: int) -> Answer:
-        key = (text, start, alternative)
+    def _ask(self, request: Request, alternative: int) -> Answer:
+        key = (request.key, request.start, alternative)
         cached = self._answers.get(key)
         if cached is not None:
             return cached
         self._check_limits()
-        action = tuple(show(part) for part in task)
         self._statistics.requests += 1
         if alternative:
             self._statistics.geometric_backtracks += 1
         began = time.monotonic()
-        answer = self._oracle.satisfy(Query(action, text, start, alternative))
+        answer = self._oracle.satisfy(_query(request, alternative))
         self._statistics.exchanged(time.monotonic() - began, answer.time_spent)
         self._statistics.answers += 1
+        self._take(request, alternative, answer)
+        return answer
+
+    def ask_together(self, requests: Sequence[Request]) -> None:
+        """Ask for the first destinations of several requests at once; the answers are there when they are needed.
+
+        Nothing is asked of a motion planner that works on one request at a time.
+        """
+        if not isinstance(self._oracle, BatchOracle):
+            return
+        wanted = {(r.key, r.start, 0): r for r in requests if self.nogood(r) is None}
+        missing = [key for key in wanted if key not in self._answers][:MOST_TOGETHER]
+        if len(missing) < 2:
+            return
+        self._check_limits()
+        began = time.monotonic()
+        answers = self._oracle.satisfy_together([_query(wanted[key], 0) for key in missing])
+        round_trip = time.monotonic() - began
+        self._statistics.requests += len(missing)
+        self._statistics.exchanged(round_trip, sum(answer.time_spent for answer in answers))
+        for key, answer in zip(missing, answers, strict=True):
+            self._statistics.answers += 1
+            self._take(wanted[key], 0, answer)
+
+    def _take(self, request: Request, alternative: int, answer: Answer) -> None:
+        """Count and remember an answer, and learn from it."""
         if answer.status == Status.ERROR and answer.code != Code.NO_START:
-            raise RequestRefused(task, text, answer)
+            raise RequestRefused(request, answer)
         if answer.status == Status.FOUND:
             self._statistics.found += 1
         elif answer.status == Status.UNKNOWN:
@@ -122,23 +179,22 @@ class Geometry:
         else:
             self._statistics.impossible += 1
             if alternative == 0:
-                self._learn(text, answer.scope, start, lineage, answer.message, answer.objects)
-        self._answers[key] = answer
-        return answer
+                self._learn(request, answer.scope, answer.message, answer.objects)
+        self._answers[request.key, request.start, alternative] = answer
 
-    def _learn(
-        self,
-        text: str,
-        scope: Scope,
-        start: Token,
-        lineage: Token,
-        reason: str,
-        objects: tuple[str, ...],
-    ) -> None:
-        place = {Scope.THIS_START: start, Scope.CONNECTED_STARTS: lineage, Scope.ANY_START: ()}
-        self._nogoods[(scope, place[scope], text)] = Nogood(reason, objects)
+    def _learn(self, request: Request, scope: Scope, reason: str, objects: tuple[str, ...]) -> None:
+        place = {
+            Scope.THIS_START: request.start,
+            Scope.CONNECTED_STARTS: request.lineage,
+            Scope.ANY_START: (),
+        }
+        self._nogoods[(scope, place[scope], request.key)] = Nogood(reason, objects)
         if scope != Scope.THIS_START:
             self.version += 1
+
+    def lower_bounds(self, start: Token) -> Mapping[str, float]:
+        """What advice said that motions from ``start`` cost at least [m], by ground text."""
+        return self._bounds.get(start, {})
 
     def ranks(
         self, start: Token, lineage: Token, texts: Sequence[str], ask: bool
@@ -157,11 +213,12 @@ class Geometry:
         advice = self._oracle.advise(start, wanted)
         self._statistics.exchanged(time.monotonic() - began, advice.time_spent)
         self._statistics.advices += 1
+        bounds = self._bounds.setdefault(start, {})
         for text, candidate in zip(wanted, advice.candidates, strict=False):
-            if candidate.impossible and self.nogood(text, start, lineage) is None:
-                self._learn(
-                    text, candidate.scope, start, lineage, candidate.message, candidate.objects
-                )
+            bounds[text] = candidate.lower_bound
+            request = Request((), text, '', start, lineage)
+            if candidate.impossible and self.nogood(request) is None:
+                self._learn(request, candidate.scope, candidate.message, candidate.objects)
         order = [index for index in advice.order if 0 <= index < len(wanted)]
         known.clear()
         known.update({text: len(wanted) for text in wanted})

@@ -3,37 +3,45 @@
 from __future__ import annotations
 
 from task_planner_node.search.domain import CompiledDomain
-from task_planner_node.search.network import Network, Task, first_tasks, replace, rest_after
+from task_planner_node.search.geometry import Request
+from task_planner_node.search.network import Network, Task, first_cells, replace
+from task_planner_node.search.partial_plan import Whereabouts
 from task_planner_node.search.state import State
+from task_planner_node.search.unbound import ground
 
 MOST_STEPS = 32
 
 
-def leading_text(domain: CompiledDomain, state: State, task: Task) -> str | None:
-    """The ground geometric preconditions that ``task`` would meet first if it were done now.
+def leading_request(
+    domain: CompiledDomain, state: State, network: Network, where: Whereabouts
+) -> Request | None:
+    """What would be asked of the motion planner first if ``network`` were done now.
 
     Methods are followed by their first applicable branch and binding; operators without geometric
     preconditions are passed over without their effects.  None when that leads to no motion.  It is a
     guess that only serves to order choices.
     """
-    network: Network = (task, None)
     for _ in range(MOST_STEPS):
         if network is None:
             return None
-        first, path = first_tasks(network)[0]
-        rest = rest_after(network, path)
-        operator = domain.operators.get(first[0])
+        first, path = first_cells(network)[0]
+        doing = first[0]
+        operator = domain.operators.get(doing[0])
+        if not ground(doing):
+            return None
         if operator is not None:
-            frame = operator.bind(first)
+            frame = operator.bind(doing)
             if frame is None:
                 return None
             if operator.text is not None:
                 for _ in operator.condition.solutions(state, frame):
-                    return operator.text(frame)
+                    behaviour = operator.behaviour(frame) if operator.behaviour else ''
+                    text = operator.text(frame)
+                    return Request(doing, text, behaviour, where.start, where.lineage)
                 return None
-            grown = rest
+            grown = first[1]
         else:
-            found = _first_decomposition(domain, state, first, rest)
+            found = _first_decomposition(domain, state, doing, first[1])
             if found is None:
                 return None
             (grown,) = found
@@ -49,6 +57,7 @@ def _first_decomposition(
         if frame is None:
             continue
         for branch in method.branches:
-            for _ in branch.condition.solutions(state, frame):
-                return (branch.grow(frame, rest),)
+            trial = frame.copy()
+            for _ in branch.condition.solutions(state, trial):
+                return (branch.grow(trial, rest, None),)
     return None

@@ -14,10 +14,13 @@ from task_planner_node.errors import MissionError, TermRefused
 from task_planner_node.language.model import show
 from task_planner_node.oracle import Token
 from task_planner_node.search.dead_ends import DeadEnd
-from task_planner_node.search.domain import CompiledDomain, CompiledOperator
+from task_planner_node.search.domain import CompiledDomain
 from task_planner_node.search.geometry import Geometry, Nogood
 from task_planner_node.search.network import Task, all_tasks
+from task_planner_node.search.operators import CompiledOperator
+from task_planner_node.search.protections import PROTECTIONS
 from task_planner_node.search.state import State, TooMuchWork
+from task_planner_node.search.unbound import ground
 
 MOST_BINDINGS = 20_000
 MOST_WORK = 500_000
@@ -40,6 +43,8 @@ def prove_dead(
     anew: the first assignment would have to come after tasks that are all subject to it.
     """
     wanted = list(dict.fromkeys(tasks))
+    if not all(ground(task) for task in wanted):
+        return []
     mark = state.mark()
     state.relaxed = True
     state.most_work = state.work + MOST_WORK
@@ -59,12 +64,44 @@ def prove_dead(
         state.most_work = inf
 
 
+def needs(
+    domain: CompiledDomain,
+    state: State,
+    geometry: Geometry,
+    tasks: Iterable[Task],
+    text: str,
+) -> bool:
+    """Whether ``tasks`` cannot all be done from ``state`` on without meeting the geometric preconditions ``text``."""
+    wanted = list(dict.fromkeys(tasks))
+    if not all(ground(task) for task in wanted):
+        return False
+    mark = state.mark()
+    state.relaxed = True
+    state.most_work = state.work + MOST_WORK
+    try:
+        relaxation = _Relaxation(domain, state, geometry, None, text)
+        relaxation.explore(wanted)
+        return bool(relaxation.reasons(wanted))
+    except (TooMuchWork, RecursionError, MissionError, TermRefused):
+        return False
+    finally:
+        state.undo(mark)
+        state.relaxed = False
+        state.most_work = inf
+
+
 class _Relaxation:
     """The fixed point of facts that may become true and of decompositions that may be applied."""
 
     def __init__(
-        self, domain: CompiledDomain, state: State, geometry: Geometry, lineage: Token | None
+        self,
+        domain: CompiledDomain,
+        state: State,
+        geometry: Geometry,
+        lineage: Token | None,
+        without: str = '',
     ) -> None:
+        self._without = without
         self.assigns = False
         self._domain = domain
         self._state = state
@@ -103,17 +140,23 @@ class _Relaxation:
             return False
         for _ in operator.condition.solutions(self._state, frame):
             self._count()
+            adds = [
+                fact for fact in operator.adds(self._state, frame) if fact[0] not in PROTECTIONS
+            ]
             if operator.text is not None:
-                nogood = self._geometry.lasting_nogood(operator.text(frame), self._lineage)
+                text = operator.text(frame)
+                if text == self._without:
+                    continue
+                nogood = self._geometry.lasting_nogood(text, self._lineage)
                 if nogood is not None:
                     self._blocked.setdefault(task, nogood)
-                    for fact in operator.adds:
-                        self._lost.setdefault(show(fact(frame)), task)
+                    for fact in adds:
+                        self._lost.setdefault(show(fact), task)
                     continue
                 self.assigns = self.assigns or operator.assigns
             self._done.add(task)
-            for fact in operator.adds:
-                changed |= self._state.add(fact(frame))
+            for fact in adds:
+                changed |= self._state.add(fact)
         return changed
 
     def _decompose(self, task: Task) -> bool:
@@ -125,9 +168,12 @@ class _Relaxation:
             if frame is None:
                 continue
             for branch in method.branches:
-                for _ in branch.condition.solutions(self._state, frame):
+                trial = frame.copy()
+                for _ in branch.condition.solutions(self._state, trial):
                     self._count()
-                    subtasks = tuple(all_tasks(branch.grow(frame, None)))
+                    if branch.loose:
+                        raise TooMuchWork
+                    subtasks = tuple(all_tasks(branch.grow(trial, None, None)))
                     if subtasks not in found:
                         found[subtasks] = None
                         changed = True

@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from operator import itemgetter
 from typing import Any
 
 from task_planner_node.errors import TermRefused
-from task_planner_node.language.model import Pattern, Term, Variable, shorten, show
+from task_planner_node.language.functions import compile_term
+from task_planner_node.language.model import (
+    Application,
+    Dotted,
+    Pattern,
+    Term,
+    Variable,
+    chain,
+    shorten,
+)
+from task_planner_node.language.source import Source
 
 Frame = list[Any]
 MAX_NESTING = 200
@@ -16,29 +26,39 @@ MAX_NESTING = 200
 
 @dataclass(frozen=True, slots=True)
 class ListPattern:
-    """A list with variables in it; ``tail`` is the slot behind the dot."""
+    """A list with variables or computed parts in it; ``tail`` stands behind the dot."""
 
     items: tuple[Compiled, ...]
-    tail: int | None
+    tail: Compiled | None
 
 
-Compiled = int | ListPattern
+@dataclass(frozen=True, slots=True, eq=False)
+class Computed:
+    """The value of a function; ``slots`` are those that it reads."""
+
+    value: Callable[[Frame], Any]
+    slots: frozenset[int]
+
+
+Compiled = int | ListPattern | Computed
 
 
 class Slots:
     """The variables and constants of one definition, each with its place in the frame."""
 
-    def __init__(self) -> None:
+    def __init__(self, source: Source) -> None:
+        self.source = source
         self.template: Frame = []
         self._variables: dict[str, int] = {}
-        self._constants: dict[Any, int] = {}
+        self._constants: dict[tuple[type, Any], int] = {}
 
     def constant(self, value: object) -> int:
         """The slot that always holds ``value``."""
-        if value not in self._constants:
-            self._constants[value] = len(self.template)
+        key = (type(value), value)
+        if key not in self._constants:
+            self._constants[key] = len(self.template)
             self.template.append(value)
-        return self._constants[value]
+        return self._constants[key]
 
     def variable(self, name: str) -> int:
         """The slot of a variable, None in the frame until it is bound."""
@@ -47,17 +67,42 @@ class Slots:
             self.template.append(None)
         return self._variables[name]
 
+    def local(self, name: str) -> int | None:
+        """Begin a scope in which ``name`` is another variable; what it was before is for end_local()."""
+        before = self._variables.pop(name, None)
+        self.variable(name)
+        return before
+
+    def end_local(self, name: str, before: int | None) -> None:
+        """End the scope that local() began."""
+        del self._variables[name]
+        if before is not None:
+            self._variables[name] = before
+
     def constants(self) -> frozenset[int]:
         """The slots that are never unbound."""
         return frozenset(self._constants.values())
 
+    def reader(self, name: str) -> Callable[[Frame], Any]:
+        """How to read a variable's value."""
+        return itemgetter(self.variable(name))
+
     def compile(self, term: Term) -> Compiled:
-        """The slot of a variable or a constant, or a list pattern of such."""
+        """The slot of a variable or a constant, a list pattern of such, or a computed value."""
         if isinstance(term, Variable):
             return self.variable(term.name)
         if isinstance(term, Pattern):
-            tail = self.variable(term.tail.name) if term.tail else None
+            tail = None if term.tail is None else self.compile(term.tail)
             return ListPattern(tuple(self.compile(item) for item in term.items), tail)
+        if isinstance(term, Application):
+            read: set[int] = set()
+
+            def variable(name: str) -> Callable[[Frame], Any]:
+                read.add(self.variable(name))
+                return self.reader(name)
+
+            value = compile_term(term, variable, self.source)
+            return Computed(value, frozenset(read))
         return self.constant(term)
 
 
@@ -65,11 +110,13 @@ def slots_of(term: Compiled) -> set[int]:
     """All slots in a compiled term."""
     if isinstance(term, int):
         return {term}
+    if isinstance(term, Computed):
+        return set(term.slots)
     slots = set().union(*(slots_of(item) for item in term.items))
-    return slots | {term.tail} if term.tail is not None else slots
+    return slots | slots_of(term.tail) if term.tail is not None else slots
 
 
-def match(term: Compiled, value: object, frame: Frame, bound: list[int]) -> bool:
+def match(term: Compiled, value: Any, frame: Frame, bound: list[int]) -> bool:
     """Match ``value``, binding unbound slots; each is noted in ``bound``, also when it fails."""
     if isinstance(term, int):
         current = frame[term]
@@ -78,29 +125,34 @@ def match(term: Compiled, value: object, frame: Frame, bound: list[int]) -> bool
             bound.append(term)
             return True
         return bool(current == value)
+    if isinstance(term, Computed):
+        return bool(term.value(frame) == value)
     count = len(term.items)
-    if not isinstance(value, tuple) or len(value) < count:
+    if isinstance(value, tuple):
+        parts: tuple[Any, ...] = value
+        rest: Any = value[count:]
+    elif isinstance(value, Dotted):
+        parts = value.items
+        rest = chain(parts[count:], value.tail)
+    else:
         return False
-    if term.tail is None and len(value) != count:
+    if len(parts) < count or (term.tail is None and rest != ()):
         return False
-    for item, part in zip(term.items, value, strict=False):
+    for item, part in zip(term.items, parts, strict=False):
         if not match(item, part, frame, bound):
             return False
-    return term.tail is None or match(term.tail, value[count:], frame, bound)
+    return term.tail is None or match(term.tail, rest, frame, bound)
 
 
 def build(term: Compiled, frame: Frame) -> Any:
     """The ground term; a list that nests deeper than MAX_NESTING raises TermRefused."""
     if isinstance(term, int):
         return frame[term]
-    value = tuple(build(item, frame) for item in term.items)
-    if term.tail is not None:
-        tail = frame[term.tail]
-        if not isinstance(tail, tuple):
-            raise TermRefused(f'{show(tail)} stands behind a dot but is no list')
-        value += tail
+    if isinstance(term, Computed):
+        return term.value(frame)
+    value = tuple([build(item, frame) for item in term.items])
     _refuse_deep(value)
-    return value
+    return value if term.tail is None else chain(value, build(term.tail, frame))
 
 
 def _refuse_deep(value: tuple[Any, ...]) -> None:
@@ -121,7 +173,7 @@ def _outline(value: object) -> str:
 
 
 def builder(terms: Sequence[Compiled]) -> Callable[[Frame], tuple[Any, ...]]:
-    """How to get the tuple of ground ``terms`` from a frame: in C when all are slots."""
+    """How to get a fresh tuple of ground ``terms`` from a frame: in C when all are slots."""
     parts = tuple(terms)
     slots = [part for part in parts if isinstance(part, int)]
     if len(slots) == len(parts) and len(slots) >= 2:
@@ -137,32 +189,3 @@ def key_builder(terms: Sequence[Compiled]) -> Callable[[Frame], Any]:
     if isinstance(only, int):
         return itemgetter(only)
     return lambda frame: build(only, frame)
-
-
-def matcher(terms: Iterable[Compiled], slots: Slots) -> Callable[[Frame, tuple[Any, ...]], bool]:
-    """How to match the arguments of a head (from position 1) to a ground task, in a fresh frame."""
-    assigned: set[int] = set(slots.constants())
-    assigns: list[tuple[int, int]] = []
-    tests: list[tuple[int, int]] = []
-    patterns: list[tuple[int, ListPattern]] = []
-    for position, term in enumerate(terms, start=1):
-        if isinstance(term, ListPattern):
-            patterns.append((position, term))
-        elif term in assigned:
-            tests.append((position, term))
-        else:
-            assigned.add(term)
-            assigns.append((position, term))
-    length = len(assigns) + len(tests) + len(patterns) + 1
-
-    def match_head(frame: Frame, task: tuple[Any, ...]) -> bool:
-        if len(task) != length:
-            return False
-        for position, slot in assigns:
-            frame[slot] = task[position]
-        for position, slot in tests:
-            if frame[slot] != task[position]:
-                return False
-        return all(match(pattern, task[position], frame, []) for position, pattern in patterns)
-
-    return match_head

@@ -1,0 +1,1 @@
+"""What HDDL and SHOP3's domains have from PDDL: types, formulas, effects, actions."""
