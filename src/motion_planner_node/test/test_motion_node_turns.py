@@ -41,7 +41,8 @@ def take(turns: Turns, name: str, told: list[object], budget: float = PATIENCE) 
 
 
 def test_turns_come_one_at_a_time_in_the_order_in_which_they_were_asked_for() -> None:
-    turns, told = Turns(), []
+    turns = Turns()
+    told: list[object] = []
     with turns.take('first', PATIENCE) as turn:
         threads = [take(turns, name, told) for name in 'abcdef']
         assert not turn()
@@ -53,7 +54,8 @@ def test_turns_come_one_at_a_time_in_the_order_in_which_they_were_asked_for() ->
 
 
 def test_all_that_wait_or_run_under_an_id_are_cancelled_and_no_others() -> None:
-    turns, told = Turns(), []
+    turns = Turns()
+    told: list[object] = []
     with turns.take('mine', PATIENCE) as turn:
         threads = [take(turns, name, told) for name in ('mine', 'yours', 'mine')]
         assert turns.cancel('nobody') == 0
@@ -68,7 +70,8 @@ def test_all_that_wait_or_run_under_an_id_are_cancelled_and_no_others() -> None:
 
 
 def test_waiting_counts_for_the_budget() -> None:
-    turns, told = Turns(), []
+    turns = Turns()
+    told: list[object] = []
     with turns.take('first', PATIENCE):
         take(turns, 'hurried', told, 1e-9).join(PATIENCE)
         assert told == [Code.OUT_OF_TIME]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from math import pi
 from pathlib import Path
 
@@ -79,7 +80,7 @@ def test_a_cache_tells_what_it_forgets_and_makes_it_anew() -> None:
     forgotten: list[int] = []
     cache: Cache[str, int] = Cache(2, forgotten.append)
     for key, value in (('a', 1), ('b', 2), ('a', 9), ('c', 3), ('b', 4)):
-        cache.get(key, lambda value=value: value)
+        cache.get(key, partial(int, value))
     assert forgotten == [2, 1]
     assert cache.get('c', lambda: 0) == 3
     cache.clear()

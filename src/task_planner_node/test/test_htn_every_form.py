@@ -68,7 +68,7 @@ class Draw:
         """A condition that binds ?y, mostly in several ways."""
         either = ('or', [self.plain('?y'), self.plain('?y')])
         chosen = self.one(self.plain('?y'), self.plain('?y'), either, ('each', '?y', ''))
-        both = (
+        both: tuple[Any, ...] = (
             'and',
             self.random.sample([chosen, self.condition(1)], 2) if self.one(0, 1) else [chosen],
         )

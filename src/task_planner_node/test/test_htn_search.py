@@ -223,7 +223,8 @@ def run(
     heard: list[Progress] = []
     asked = itertools.count()
     planner = Planner(world, options, lambda: next(asked) >= stop_after, heard.append)
-    return planner.plan(*(MissionText('', text) for text in mission)), heard
+    domain, problem = (MissionText('', text) for text in mission)
+    return planner.plan(domain, problem), heard
 
 
 def test_a_cancelled_mission_stops_at_the_next_request(

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from task_planner_node.language import Source, read_domain, read_problem
-from task_planner_node.language.model import Atom, Partial
+from task_planner_node.language.model import Atom, Ordered, Partial
 from task_planner_node.mission import MissionText, check_and_compile
 from task_planner_node.oracle import Oracle
 from task_planner_node.outcomes import Options, Outcome, Progress, Result
@@ -43,6 +43,7 @@ def test_an_explicit_order_allows_its_linear_extensions(
     found = read_problem(
         Source('p', f'(defproblem p d () ({" ".join(f"({name} {i})" for i in range(4))}))')
     )
+    assert isinstance(found.tasks, Ordered)
     atoms = tuple(item for item in found.tasks.items if isinstance(item, Atom))
     problem = replace(found, tasks=Partial(atoms, tuple(sorted(before))))
     mission = check_and_compile(domain, problem, no_motion_planner)
