@@ -31,6 +31,9 @@ The figures of `make experiment-htn` on one machine, written by the experiment i
   ours are judged by unified-planning's simulator and validator.
 - **Keeping track** is measured by what is noted beyond the plan itself: an entry in the log for each task that was
   decomposed, and the dead ends of a search that has to try everything.
+- **Public domains** are not shipped. `python -m experiments.htn.public_domains FOLDER --solve 5` reads and solves those of the
+  planning competition (HDDL) in a clone of its repository and has the plans judged;
+  `python -m experiments.htn.public_shop FOLDER` does the same with SHOP3's examples.
 """
 
 

@@ -228,21 +228,23 @@ class _Relaxation:
         if nogood is not None:
             return DeadEnd(task, nogood.reason, nogood.objects, 1)
         operator = self._domain.operators.get(task[0])
-        conditions = []
+        failures: list[tuple[str, str]] = []
         if operator is not None:
             frame = operator.bind(task)
             if frame is not None:
-                conditions.append(operator.condition.first_failure(self._state, frame))
+                failures.append(('', operator.condition.first_failure(self._state, frame)))
         for method in self._domain.methods.get(task[0], ()):
             frame = method.bind(task)
             if frame is not None:
-                conditions += [
-                    b.condition.first_failure(self._state, frame) for b in method.branches
+                failures += [
+                    (branch.label, branch.condition.first_failure(self._state, frame))
+                    for branch in method.branches
                 ]
-        if not conditions:
+        if not failures:
             return DeadEnd(task, no_definition_fits(task, operator is not None), count=1)
-        unmet = tuple(dict.fromkeys(conditions))
-        return DeadEnd(task, f'nothing can make {" or ".join(unmet)} true', count=1, unmet=unmet)
+        unmet = tuple(dict.fromkeys(literal for _, literal in failures))
+        parts = unmet if len(unmet) == 1 else [f'{literal} in {name}' for name, literal in failures]
+        return DeadEnd(task, f'nothing can make {" or ".join(parts)} true', count=1, unmet=unmet)
 
 
 def no_definition_fits(task: Task, primitive: bool) -> str:
