@@ -15,6 +15,7 @@ from shapely.geometry import mapping
 from motion_planner_node.errors import MotionPlannerError
 from motion_planner_node.world import read_world
 from motion_planner_node.world.model import Polygon, World
+from motion_planner_node.world.obstacles import unused_name
 
 SQUARE = [[0, 0], [2, 0], [2, 2], [0, 2], [0, 0]]
 CROSSED = [[0, 0], [4, 3], [2, 0], [0, 2], [0, 0]]
@@ -157,3 +158,18 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
     assert 'needs either polygon or circle, or geojson' in faults_of(tmp_path, '', both)
     named = OBSTACLES + '    name: all\n'
     assert 'are in its features' in faults_of(tmp_path, polygon(SQUARE), named)
+
+
+def test_no_number_behind_a_name_is_tried_twice() -> None:
+    class Counted(dict[str, int]):
+        asked = 0
+
+        def __contains__(self, key: object) -> bool:
+            Counted.asked += 1
+            return super().__contains__(key)
+
+    lines, numbers = Counted({'a_3': 1}), dict[str, int]()
+    for _ in range(100):
+        lines[unused_name('a', lines, numbers)] = 1
+    assert set(lines) == {'a', *(f'a_{number}' for number in range(2, 102))}
+    assert Counted.asked <= 3 * 100

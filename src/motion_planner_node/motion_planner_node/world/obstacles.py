@@ -42,13 +42,14 @@ def read_obstacles(node: Node, directory: str, faults: Faults) -> tuple[Obstacle
         fields = _fields(item, what, (), faults)
         entries.append((_name(fields, what, lines, faults), fields))
     obstacles: list[Obstacle] = []
+    numbers: dict[str, int] = {}
     for number, (given, fields) in enumerate(entries, 1):
         name = given or f'obstacle{number}'
         while given is None and name in lines:
             name += '_'
         if 'geojson' in fields:
             for label, polygon in read_geojson(fields['geojson'], directory, faults):
-                own = _unused(label or name, lines)
+                own = unused_name(label or name, lines, numbers)
                 lines[own] = node.place.line
                 obstacles.append(replace(polygon, name=own))
         elif outline := _outline(fields, name, faults):
@@ -124,12 +125,15 @@ def _outline(fields: dict[str, Node], name: str, faults: Faults) -> Polygon | Ci
     return read_circle(fields['circle'], name, faults) if 'circle' in fields else None
 
 
-def _unused(name: str, lines: Container[str]) -> str:
-    """``name``, or with the first number behind it that makes it a new one."""
-    number, result = 1, name
+def unused_name(name: str, lines: Container[str], numbers: dict[str, int]) -> str:
+    """``name``, or with the first number behind it that makes it a new one.
+
+    ``numbers`` says which was the last one behind a name, so that none is tried twice.
+    """
+    result = name
     while result in lines:
-        number += 1
-        result = f'{name}_{number}'
+        numbers[name] = numbers.get(name, 1) + 1
+        result = f'{name}_{numbers[name]}'
     return result
 
 
