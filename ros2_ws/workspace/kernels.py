@@ -26,7 +26,7 @@ def compile_kernels(layout: Layout, ros: SourcedRos | None, venv: str) -> None:
     if stamps.is_current(stamp, made_from):
         return
     run_step(
-        'Compiling the numerical kernels (some ten seconds)',
+        'Compiling the numerical kernels (a minute or so)',
         [layout.workspace / 'run', 'python', '-c', COMPILE],
         layout.logs / 'kernels.log',
         environment=build_environment(layout, ros),

@@ -154,7 +154,7 @@ class MotionPlanner:
 def warm_up() -> None:
     """Compile the numerical kernels, or load them, so that the first request need not.
 
-    Takes some ten seconds the first time and about one when the kernels are cached on disk.
+    Takes a minute or so the first time and about one when the kernels are cached on disk.
     """
     agent, here = 'robot', Attitude(20.0, 10.0, 0.0)
     car = Robot(agent, wheelbase=1.0, max_steering_angle=0.5, radius=1.0, speed=1.0)
