@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from unified_planning import shortcuts
-from unified_planning.exceptions import UPException
-from unified_planning.io import PDDLReader
-from unified_planning.model import Problem
-from unified_planning.plans import ActionInstance, SequentialPlan
+if TYPE_CHECKING:
+    from unified_planning.model import Problem
 
 
 class NotJudged(Exception):
@@ -23,6 +21,12 @@ def fault_of(domain: Path, problem: Path, actions: Sequence[Sequence[str]]) -> s
     other by unified-planning's simulator, the goal is tested, and its validator has to agree.  The decomposition
     is not judged: unified-planning has no validator of hierarchical plans.  Raises NotJudged.
     """
+    # Here, so that what only runs the missions needs no unified-planning.
+    from unified_planning import shortcuts
+    from unified_planning.exceptions import UPException
+    from unified_planning.io import PDDLReader
+    from unified_planning.plans import ActionInstance, SequentialPlan
+
     environment = shortcuts.get_environment()
     environment.credits_stream = None
     environment.error_used_name = False
@@ -52,6 +56,8 @@ def fault_of(domain: Path, problem: Path, actions: Sequence[Sequence[str]]) -> s
 
 def _without_tasks(problem: Problem) -> Problem:
     """The same actions, objects, facts and goal, without tasks and methods."""
+    from unified_planning.model import Problem
+
     flat = Problem('flat', problem.environment)
     for fluent in problem.fluents:
         flat.add_fluent(fluent, default_initial_value=problem.fluents_defaults.get(fluent))
