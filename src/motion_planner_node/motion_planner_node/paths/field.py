@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import hypot, inf
+from math import hypot
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.world.free_space import TravelField
+from motion_planner_node.world.regions import travel_at
 
 
 class Field(NamedTuple):
@@ -40,18 +41,5 @@ def field_of(travel: TravelField) -> Field:
 @kernel
 def field_at(field: Field, x: float, y: float) -> float:
     """Estimated distance [m] at (x, y); infinite where no way leads."""
-    rows, columns = field.distances.shape
-    across = min(max((x - field.corner[0]) / field.cell + 0.5, 0.5), columns - 1.5)
-    up = min(max((y - field.corner[1]) / field.cell + 0.5, 0.5), rows - 1.5)
-    i, j = int(across), int(up)
-    total, weights = 0.0, 0.0
-    for b in range(2):
-        for a in range(2):
-            distance = field.distances[j + b, i + a]
-            if distance < inf:
-                weight = abs(1 - b - (up - j)) * abs(1 - a - (across - i)) + 1e-12
-                total += weight * distance
-                weights += weight
-    if weights == 0.0:
-        return inf
-    return max(total / weights, hypot(x - field.origin[0], y - field.origin[1]))
+    around = travel_at(field.distances, field.corner[0], field.corner[1], field.cell, x, y)
+    return max(around, hypot(x - field.origin[0], y - field.origin[1]))

@@ -8,13 +8,18 @@ from motion_planner_node.paths.edges import Rows, edge_lengths
 from motion_planner_node.paths.query import Query
 from motion_planner_node.paths.shortening import densified, shortened
 from motion_planner_node.paths.shots import best_ending
+from motion_planner_node.robots.driving import shortest_between
 
 #: Attitudes along a path, random moves and rounds.
-LOOK = (14, 80, 1)
+LOOK = (9, 40, 1)
 #: Attitudes round which destinations are looked for in one refinement.
-PROBES = 32
+PROBES = 24
 #: Attitudes along a path that are left for a better destination.
-LEAVES = 14
+LEAVES = 10
+#: A word of no more than so many times the length of the shortest one is not made shorter.
+STRAIGHT = 1.0 + 1e-9
+#: A refinement that gains no more than this share of the length is the last one.
+WORTHWHILE = 0.002
 #: Share of the path, from its end, near which the probes are.
 TAIL = 0.4
 
@@ -27,6 +32,10 @@ def length_of(query: Query, path: Rows) -> float:
 def simplified(query: Query, path: Rows, number: int = 0) -> Rows:
     """A path between the same ends that is not longer; ``number`` tells calls apart."""
     points, moves, rounds = LOOK
+    if len(path) == 2 and length_of(query, path) <= STRAIGHT * float(
+        shortest_between(path[0], path[1:], query.robot)[0]
+    ):
+        return path
     for draws in query.random(1, number).uniform(-1.0, 1.0, (rounds, 1, moves, 3)):
         query.check_time()
         path = shortened(query.frame, path, points, 2.0 * query.reach, draws)
@@ -52,8 +61,11 @@ def refined(query: Query, path: Rows) -> Rows:
         if leave < 0:
             continue
         candidate = simplified(query, np.vstack((along[: leave + 1], ends[end])), 1 + number)
+        before = length
         if shorter < length:
             path, length = candidate, length_of(query, candidate)
+        if length > (1.0 - WORTHWHILE) * before:
+            break
     return path
 
 

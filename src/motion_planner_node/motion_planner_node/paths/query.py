@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from motion_planner_node.errors import Stopped
 from motion_planner_node.paths.edges import Row, Rows, frame_of
-from motion_planner_node.paths.field import Field, field_at, field_of
+from motion_planner_node.paths.field import Field, field_of
 from motion_planner_node.paths.result import PathBudget
 from motion_planner_node.robots.body import sufficient_clearance
 from motion_planner_node.robots.driving import shortest_between
@@ -66,11 +66,6 @@ class Query:
         #: How far [m] attitudes are moved at first to see whether that is better.
         self.reach = max(robot.turning_radius, robot.radius)
 
-    @cached_property
-    def field(self) -> Field:
-        """Travel distances from the start."""
-        return self.field_from(self.start)
-
     def field_from(self, row: Row) -> Field:
         """Travel distances from an attitude (3,)."""
         free = self.scene.free_space(self.robot.body)
@@ -79,7 +74,9 @@ class Query:
     @cached_property
     def estimates(self) -> NDArray[np.float64]:
         """Estimated lengths [m] of the motions to the goals, (k,)."""
-        around = np.array([field_at(self.field, x, y) for x, y, _ in self.goals])
+        free = self.scene.free_space(self.robot.body)
+        travel = free.distance_from(float(self.start[0]), float(self.start[1]))
+        around = travel.at(self.goals[:, 0], self.goals[:, 1])
         straight = shortest_between(self.start, self.goals, self.robot)
         return np.asarray(np.maximum(around, straight), np.float64)
 

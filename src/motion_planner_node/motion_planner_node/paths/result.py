@@ -43,7 +43,7 @@ class PathBudget:
     """
 
     attitudes: int = 20000
-    improving: int = 150
+    improving: int = 75
     iterations: int = 2000
     refinements: int = 2
     good_enough: float = 1.005

@@ -14,7 +14,7 @@ from motion_planner_node.robots.body import necessary_clearance
 from motion_planner_node.robots.driving import shortest_between
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.robots.robot import Robot
-from motion_planner_node.satisfaction import Room
+from motion_planner_node.satisfaction import Room, Travel
 from motion_planner_node.world.scene import Scene
 
 #: Boxes on a side of the map where a grid over all of it is needed, free or not.
@@ -132,6 +132,14 @@ class Ground:
         here = np.array([start.x, start.y, start.heading])
         around = self.ways_round(start, states)
         return np.asarray(np.maximum(around, self.steered(here, states)))
+
+    def travel_from(self, start: Attitude) -> Travel:
+        """The ways and estimates from ``start``, as a search for destinations wants them."""
+        return Travel(
+            lambda states: self.ways_round(start, states),
+            lambda states: self.estimates(start, states),
+            max(self.robot.turning_radius, self.robot.radius),
+        )
 
     def area(self, part: int) -> Area:
         """Size and bounding obstacles of a connected part of the free space, biggest share first."""

@@ -180,6 +180,7 @@ class Stream:
                 np.random.default_rng([self._seed, round_number]),
                 self._parameters.destinations,
                 self._ground.room,
+                self._ground.travel_from(self._problem.start),
             )
         )
         free = self._ground.is_free(states)
@@ -190,8 +191,8 @@ class Stream:
             self._spread = max(self._spread, float(np.ptp(states[:, :2], axis=0).max()))
         # Those of one round differ from each other.
         earlier = tuple(self._seen)
-        for index, state in enumerate(states):
-            attitude = Attitude(*(float(number) for number in state))
+        for index, state in enumerate(states.tolist()):
+            attitude = Attitude(*state)
             if not all(_differ(attitude, seen, SAME, SAME) for seen in earlier):
                 continue
             self._seen.append(attitude)

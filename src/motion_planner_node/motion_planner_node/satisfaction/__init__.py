@@ -4,7 +4,12 @@ from motion_planner_node.satisfaction.branch_and_prune import branch_and_prune
 from motion_planner_node.satisfaction.cells import Cells, possible_cells
 from motion_planner_node.satisfaction.conflicts import separation, together, unsolved
 from motion_planner_node.satisfaction.descent import Descent, DescentOptions, descend
-from motion_planner_node.satisfaction.destinations import destinations, from_start, restarts
+from motion_planner_node.satisfaction.destinations import (
+    Travel,
+    destinations,
+    from_start,
+    restarts,
+)
 from motion_planner_node.satisfaction.program import TOLERANCE, Program, compile_program
 from motion_planner_node.satisfaction.room import Room
 from motion_planner_node.satisfaction.row import wrap
@@ -16,6 +21,7 @@ __all__ = [
     'DescentOptions',
     'Program',
     'Room',
+    'Travel',
     'branch_and_prune',
     'compile_program',
     'descend',

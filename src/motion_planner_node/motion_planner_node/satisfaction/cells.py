@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,8 +18,10 @@ from motion_planner_node.satisfaction.branch_and_prune import Bounded, possible
 from motion_planner_node.world.model import Bounds
 
 #: Boxes are halved until there would be more than this, or this often.
-_MOST_CELLS = 1024
+MOST_CELLS = 1024
 _MOST_HALVINGS = 16
+#: They are halved so often before anything is asked about them.
+_FIRST_HALVINGS = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,23 +51,34 @@ class Cells:
         )
 
 
-def possible_cells(program: Bounded, bounds: Bounds, rows: Sequence[int] | None = None) -> Cells:
+def possible_cells(
+    program: Bounded, bounds: Bounds, rows: Sequence[int] | None = None, most: int = MOST_CELLS
+) -> Cells:
     """Equal boxes that cover all positions within ``bounds`` where the constraints can be met.
 
-    ``rows`` picks constraints by their index; all count by default.
+    ``rows`` picks constraints by their index; all count by default.  From more than half of ``most``
+    boxes on they are not made smaller.
     """
+    cells = _first_cells(bounds)
+    cells = cells.only(possible_positions(program, cells, rows))
+    for _ in range(_FIRST_HALVINGS, _MOST_HALVINGS):
+        if not len(cells) or len(cells) > most // 2:
+            break
+        cells = cells.quartered()
+        cells = cells.only(possible_positions(program, cells, rows))
+    return cells
+
+
+@lru_cache(maxsize=8)
+def _first_cells(bounds: Bounds) -> Cells:
     cells = Cells(
         np.array([bounds.x_min]),
         np.array([bounds.x_max]),
         np.array([bounds.y_min]),
         np.array([bounds.y_max]),
     )
-    cells = cells.only(possible_positions(program, cells, rows))
-    for _ in range(_MOST_HALVINGS):
-        if not len(cells) or len(cells) > _MOST_CELLS // 2:
-            break
+    for _ in range(_FIRST_HALVINGS):
         cells = cells.quartered()
-        cells = cells.only(possible_positions(program, cells, rows))
     return cells
 
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from math import hypot, inf, sin
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
 from motion_planner_node.functions import Array
+from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.robots.motion import Attitude
-from motion_planner_node.satisfaction.cells import possible_cells
 from motion_planner_node.satisfaction.descent import Descent, descend
 from motion_planner_node.satisfaction.program import Program
 from motion_planner_node.satisfaction.room import ANYWHERE, Room, within
@@ -22,6 +26,24 @@ _HEADING_WEIGHT = 0.5
 
 #: Destinations nearer than this, in units of the spread, are the same one.
 _SAME = 1e-6
+
+#: Where destinations are looked for near the start: round it, at these multiples of the reach, and
+#: at those of so many places for each destination that is wanted that are nearest by travel.
+_AROUND = (0.1, 0.5, 1.0, 2.0, 4.0)
+_PLACES = 24
+
+
+class Travel(NamedTuple):
+    """How far it is from the start.
+
+    ways: estimated lengths [m], (n,), of the ways to attitudes (n, 3), quickly.
+    lengths: the same with what the robot's steering makes of them.
+    reach: distance [m] within which it matters how the robot steers.
+    """
+
+    ways: Callable[[Array], Array]
+    lengths: Callable[[Array], Array]
+    reach: float
 
 
 def from_start(program: Program, start: Attitude, room: Room = ANYWHERE) -> Descent:
@@ -40,15 +62,17 @@ def restarts(
 
     Line 13 of Algorithm 1. Where no place can, the attitudes are spread over the whole map.
     """
-    cells = possible_cells(program, bounds)
-    if not len(cells):
-        cells = possible_cells(program, bounds, [])
+    return descend(program, _spread_out(program, bounds, rng, count), room=room)
+
+
+def _spread_out(program: Program, bounds: Bounds, rng: np.random.Generator, count: int) -> Array:
+    """``count`` random attitudes (count, 3), spread evenly over where descents can succeed."""
+    cells = program.places(bounds)
     chosen = ((np.arange(count) + rng.random()) * len(cells) / count).astype(np.int64)
     along = rng.random((count, 3))
     x = cells.x_lo[chosen] + along[:, 0] * (cells.x_hi - cells.x_lo)[chosen]
     y = cells.y_lo[chosen] + along[:, 1] * (cells.y_hi - cells.y_lo)[chosen]
-    states = np.column_stack((x, y, np.pi * (1.0 - 2.0 * along[:, 2])))
-    return descend(program, states, room=room)
+    return np.column_stack((x, y, np.pi * (1.0 - 2.0 * along[:, 2])))
 
 
 def destinations(
@@ -58,58 +82,87 @@ def destinations(
     rng: np.random.Generator,
     count: int,
     room: Room | None = None,
+    travel: Travel | None = None,
 ) -> Array:
     """At most ``count`` different attitudes (k, 3) in ``room`` that satisfy the program.
 
     The descent from ``start`` comes first if it succeeds; each further attitude is the one farthest
-    from those before it. Descents that end in an obstacle, or outside ``bounds``, go on from there
-    with the obstacles as one more constraint, which pushes them out. Without a ``room`` there are
-    no obstacles. Only where no destination is free, blocked ones on the map are given. A program
-    that says nothing about the attitude is satisfied at ``start`` or nowhere.
+    from those before it. With ``travel``, descents also begin round the start and where it is near,
+    and as many attitudes again are given, those that are nearest. Descents that end in an obstacle,
+    or outside ``bounds``, go on from there with the obstacles as one more constraint, which pushes
+    them out. Without a ``room`` there are no obstacles. Only where no destination is free, blocked
+    ones on the map are given. A program that says nothing about the attitude is satisfied at
+    ``start`` or nowhere.
     """
     room = within(bounds) if room is None else room
-    descent = from_start(program, start)
-    free, blocked = _sorted_out(program, descent, room)
+    begin = np.array([[start.x, start.y, start.heading]])
     if program.depends_on_attitude:
-        tries = int(np.ceil(_OVERSAMPLING * count))
-        more = _sorted_out(program, restarts(program, bounds, rng, tries), room)
-        free, blocked = np.concatenate((free, more[0])), np.concatenate((blocked, more[1]))
-    found = free if len(free) else blocked
-    return found[_farthest_points(found, count)]
+        spread = _spread_out(program, bounds, rng, int(np.ceil(_OVERSAMPLING * count)))
+        begin = np.concatenate((begin, spread))
+        if travel is not None:
+            begin = np.concatenate((begin, _near(program, begin[0], bounds, rng, count, travel)))
+    found = _sorted_out(program, descend(program, begin), room)
+    chosen = _farthest_points(found, count)
+    if travel is not None and len(found):
+        nearest = np.argsort(travel.lengths(found), kind='stable')[:count]
+        chosen = np.concatenate((chosen, np.setdiff1d(nearest, chosen)))
+    return found[chosen]
 
 
-def _sorted_out(program: Program, descent: Descent, room: Room) -> tuple[Array, Array]:
-    """Where the descents end that satisfy the program: in free places, and in blocked ones.
+def _near(
+    program: Program,
+    start: Array,
+    bounds: Bounds,
+    rng: np.random.Generator,
+    count: int,
+    travel: Travel,
+) -> Array:
+    """Attitudes (n, 3) round ``start`` (3,), and others where descents can succeed near to it."""
+    around = rng.normal(size=(count, 3))
+    around[:, :2] *= travel.reach * np.resize(_AROUND, count)[:, None]
+    places = _spread_out(program, bounds, rng, _PLACES * count)
+    nearest = np.argsort(travel.ways(places), kind='stable')[: 2 * count]
+    return np.concatenate((start + around, places[nearest]))
+
+
+def _sorted_out(program: Program, descent: Descent, room: Room) -> Array:
+    """Where the descents end that satisfy the program, in their order: free places if there are any.
 
     Those that have ended in an obstacle are first pushed out of it.
     """
     blocked = clearances(room.shapes, descent.states) < room.clearance
-    free = descent.states[descent.satisfied & ~blocked]
-    if not blocked.any():
-        return free, descent.states[:0]
-    again = descend(program, descent.states[blocked], room=room)
-    free = np.concatenate((free, again.states[again.satisfied]))
+    states, free = descent.states.copy(), descent.satisfied & ~blocked
+    if blocked.any():
+        again = descend(program, states[blocked], room=room)
+        states[blocked], free[blocked] = again.states, again.satisfied
+    if free.any():
+        return states[free]
     low, high = room.shapes.bounds[:2], room.shapes.bounds[2:]
     on_map = ((low <= descent.states[:, :2]) & (descent.states[:, :2] <= high)).all(axis=1)
-    return free, descent.states[descent.satisfied & blocked & on_map]
+    return descent.states[descent.satisfied & blocked & on_map]
 
 
+@kernel
 def _farthest_points(states: Array, count: int) -> NDArray[np.int64]:
     """Indices of ``count`` different states: the first, then always the one farthest from all."""
-    if not len(states):
-        return np.zeros(0, dtype=np.int64)
-    spread = max(float(np.max(np.ptp(states[:, :2], axis=0))), 1.0)
-    x, y = states[:, 0] / spread, states[:, 1] / spread
-    turned = 0.5 * _HEADING_WEIGHT * np.exp(1j * states[:, 2])
-    position = x + 1j * y
-    chosen = [0]
-    nearest = np.full(len(states), np.inf)
-    while len(chosen) < count:
-        last = chosen[-1]
-        apart = np.abs(position - position[last]) + np.abs(turned - turned[last])
-        np.minimum(nearest, apart, out=nearest)
-        farthest = int(np.argmax(nearest))
-        if nearest[farthest] <= _SAME:
+    total = len(states)
+    chosen, size, last = np.zeros(min(count, total), np.int64), 0, 0
+    if total == 0:
+        return chosen
+    spread = max(np.ptp(states[:, 0]), np.ptp(states[:, 1]), 1.0)
+    nearest = np.full(total, inf)
+    while size < len(chosen):
+        chosen[size] = last
+        size += 1
+        farthest, most = 0, -inf
+        for index in range(total):
+            away = hypot(states[index, 0] - states[last, 0], states[index, 1] - states[last, 1])
+            turned = abs(sin(0.5 * (states[index, 2] - states[last, 2])))
+            apart = away / spread + _HEADING_WEIGHT * turned
+            nearest[index] = min(nearest[index], apart)
+            if nearest[index] > most:
+                farthest, most = index, nearest[index]
+        if most <= _SAME:
             break
-        chosen.append(farthest)
-    return np.array(chosen, dtype=np.int64)
+        last = farthest
+    return chosen[:size]

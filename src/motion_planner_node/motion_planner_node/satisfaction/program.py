@@ -28,7 +28,7 @@ from motion_planner_node.language.tape import Tape
 from motion_planner_node.requests import Residual
 from motion_planner_node.robots.arcs import wrap_angle
 from motion_planner_node.robots.motion import Attitude, GeometricState
-from motion_planner_node.satisfaction.cells import Cells, possible_positions
+from motion_planner_node.satisfaction.cells import Cells, possible_cells, possible_positions
 from motion_planner_node.satisfaction.conflicts import contradiction
 from motion_planner_node.satisfaction.evaluation import violations_at
 from motion_planner_node.satisfaction.recording import Table, record
@@ -39,6 +39,11 @@ from motion_planner_node.world.model import Bounds, World
 #: Violation up to which a constraint counts as met by a destination, in the constraint's unit, for
 #: coordinates of ordinary size. Strict comparators have none.
 TOLERANCE = 1e-9
+
+#: Violation that restarts allow for: as large as any tolerance, so that they suit all starts.
+_LOOSE = 1e-6
+#: Boxes of positions that restarts are spread over.
+_MOST_PLACES = 256
 
 _EPSILON = float(np.finfo(np.float64).eps)
 
@@ -98,7 +103,7 @@ class Program:
         is_same = all(start.get(label) == self.start[label] for label in others)
         if self.assigns or self.agent not in start or not is_same:
             return None
-        _ = self.table  # which both programs share
+        _ = self.table, self._places  # which both programs share
         result = copy(self)
         vars(result).pop('conditions', None)
         result.start, result.tolerance = self._begun(start)
@@ -213,6 +218,22 @@ class Program:
         """Which boxes of positions (n,) may hold a destination: False where provably none does."""
         return possible_positions(self, Cells(x_lo, x_hi, y_lo, y_hi))
 
+    @cached_property
+    def _places(self) -> dict[Bounds, Cells]:
+        return {}
+
+    def places(self, bounds: Bounds) -> Cells:
+        """Equal boxes within ``bounds`` that hold nearly all destinations, the same for all starts.
+
+        Where nothing may hold one, the boxes cover all of it.
+        """
+        if bounds not in self._places:
+            loose = copy(self)
+            loose.tolerance = _LOOSE
+            cells = possible_cells(loose, bounds, most=_MOST_PLACES)
+            self._places[bounds] = cells if len(cells) else possible_cells(loose, bounds, [])
+        return self._places[bounds]
+
     def contradiction(self, bounds: Bounds) -> str | None:
         """A sentence when provably no attitude within ``bounds`` satisfies the program."""
         return contradiction(self, bounds)
@@ -220,7 +241,7 @@ class Program:
     def only(self, rows: Sequence[int]) -> Program:
         """The program with only the constraints number ``rows``."""
         part = copy(self)
-        for name in ('table', 'conditions', 'uses_heading'):
+        for name in ('table', 'conditions', 'uses_heading', '_places'):
             vars(part).pop(name, None)
         part.rows = tuple(self.rows[index] for index in rows)
         part.constraints = tuple(row.text for row in part.rows)
@@ -265,11 +286,14 @@ class Program:
 
     def unmet(self, attitude: Attitude) -> tuple[str, ...]:
         """A sentence for each constraint that ``attitude`` misses, with the value that it has."""
+        residuals = self.residuals(attitude)
+        if all(residual.satisfied for residual in residuals):
+            return ()
         state = np.array([[attitude.x, attitude.y, attitude.heading]])
         return tuple(
             f'{row.text} not met: {row.shown(left)}'
             for row, (left, _), residual in zip(
-                self.rows, self.sides(state), self.residuals(attitude), strict=True
+                self.rows, self.sides(state), residuals, strict=True
             )
             if not residual.satisfied
         )

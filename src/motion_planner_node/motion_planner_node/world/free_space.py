@@ -8,7 +8,13 @@ from math import ceil, sqrt
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from motion_planner_node.world.regions import components, open_cells, travel_distances
+from motion_planner_node.world.regions import (
+    components,
+    labels_at,
+    open_cells,
+    travel_at_each,
+    travel_distances,
+)
 from motion_planner_node.world.shapes import Shapes
 
 #: Cells on the shorter side of the map, as far as the number of all cells allows.
@@ -34,18 +40,9 @@ class _Grid:
         )
         self.columns = ceil(width / self.cell)
         self.rows = ceil(height / self.cell)
-        self.open = open_cells(shapes, margin, self.cell, self.columns, self.rows)
-
-    def indices(
-        self, x: NDArray[np.float64], y: NDArray[np.float64]
-    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Rows and columns of the cells at points, those outside the map moved to its edge."""
-        column = np.floor((x - self.corner[0]) / self.cell)
-        row = np.floor((y - self.corner[1]) / self.cell)
-        return (
-            np.clip(np.nan_to_num(row), 0, self.rows - 1).astype(np.int64),
-            np.clip(np.nan_to_num(column), 0, self.columns - 1).astype(np.int64),
-        )
+        #: With a frame of closed cells all round, (rows + 2, columns + 2).
+        self.framed = np.pad(open_cells(shapes, margin, self.cell, self.columns, self.rows), 1)
+        self.open = np.ascontiguousarray(self.framed[1:-1, 1:-1])
 
 
 class Cells:
@@ -69,9 +66,8 @@ class TravelField:
     """
 
     def __init__(self, grid: _Grid, distances: NDArray[np.float64], x: float, y: float) -> None:
-        self._grid = grid
         #: At the middles of the cells, shape (rows + 2, columns + 2), infinite all round the grid.
-        self.distances = np.pad(distances, 1, constant_values=np.inf)
+        self.distances = distances
         #: The point, and the corner of the grid [m].
         self.origin = (x, y)
         self.corner = grid.corner
@@ -84,19 +80,14 @@ class TravelField:
         Never less than the straight distance.
         """
         x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
-        grid = self._grid
-        column = np.clip((x - grid.corner[0]) / grid.cell + 0.5, 0.5, grid.columns + 0.5)
-        row = np.clip((y - grid.corner[1]) / grid.cell + 0.5, 0.5, grid.rows + 0.5)
-        i = np.floor(column).astype(np.int64)
-        j = np.floor(row).astype(np.int64)
-        total, weights = np.zeros(x.shape), np.zeros(x.shape)
-        for b, a in ((0, 0), (0, 1), (1, 0), (1, 1)):
-            distances = self.distances[j + b, i + a]
-            weight = np.abs(1 - b - (row - j)) * np.abs(1 - a - (column - i))
-            weight = np.where(np.isfinite(distances), weight + 1e-12, 0.0)
-            total += weight * np.where(weight > 0.0, distances, 0.0)
-            weights += weight
-        estimate = np.divide(total, weights, out=np.full(x.shape, np.inf), where=weights > 0.0)
+        flat = travel_at_each(
+            self.distances,
+            *self.corner,
+            self.cell,
+            np.array(x).reshape(-1),
+            np.array(y).reshape(-1),
+        )
+        estimate = flat.reshape(x.shape)
         straight = np.hypot(x - self.origin[0], y - self.origin[1])
         return np.asarray(np.maximum(estimate, straight))
 
@@ -130,12 +121,8 @@ class FreeSpace:
 
     def components_of(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.int32]:
         """Numbers of the components at points of shape (n,); -1 where they are not free."""
-        xs, ys = np.asarray(x, float), np.asarray(y, float)
-        grid = self._grid
-        labels = self._labels[grid.indices(xs, ys)]
-        dx, dy = (xs - grid.corner[0]) / grid.cell, (ys - grid.corner[1]) / grid.cell
-        inside = (dx >= 0) & (dx <= grid.columns) & (dy >= 0) & (dy <= grid.rows)
-        return np.where(inside, labels, np.int32(-1))
+        xs, ys = np.ascontiguousarray(x, np.float64), np.ascontiguousarray(y, np.float64)
+        return labels_at(self._labels, *self._grid.corner, self._grid.cell, xs, ys)
 
     def distance_from(self, x: float, y: float) -> TravelField:
         """Estimated lengths [m] of motions between (x, y) and everywhere; kept for the next call."""
@@ -144,7 +131,7 @@ class FreeSpace:
         if field is None:
             grid = self._travel_grid
             distances = travel_distances(
-                grid.open, grid.cell, float(x - grid.corner[0]), float(y - grid.corner[1])
+                grid.framed, grid.cell, float(x - grid.corner[0]), float(y - grid.corner[1])
             )
             field = TravelField(grid, distances, x, y)
             self._fields[key] = field
