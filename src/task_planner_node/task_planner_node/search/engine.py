@@ -35,6 +35,8 @@ PATIENCE = 1000
 MOST_NOTED = 200
 # A task is looked for among so many of those that it came from.
 MOST_ANCESTORS = 100
+# Names of tasks with the states in which they came up, as far as they are remembered.
+MOST_BEGUN = 500_000
 
 
 class Search:
@@ -74,6 +76,7 @@ class Search:
         self._check = check
         self._ways = Ways(self, domain, beginning, state, geometry, limits)
         self._repeats = 0
+        self._begun: set[tuple[object, tuple[int, Token]]] = set()
         self._steps = 0
 
     def run(self, start: Token) -> None:
@@ -217,18 +220,27 @@ class Search:
             )
         return True
 
-    def repeats(self, task: Task, parent: Expansion | None, since: tuple[int, int]) -> bool:
+    def repeats(self, task: Task, parent: Expansion | None, start: Token) -> bool:
         """Whether a task came up below itself in the same state more often than this round allows.
 
         It is then left for a later round.
         """
+        since = (self._state.key, start)
+        begun = (task[0], since)
+        if begun not in self._begun:
+            if len(self._begun) >= MOST_BEGUN:
+                self._begun.clear()
+            self._begun.add(begun)
+            return False
         allowed = self._repeats
         loose = self._domain.loose
         wanted = shape(task) if loose else task
         for _ in range(MOST_ANCESTORS):
-            if parent is None or parent.since != since:
+            if parent is None:
                 return False
-            if parent.task == task or (loose and shape(parent.task) == wanted):
+            if parent.since == since and (
+                parent.task == task or (loose and shape(parent.task) == wanted)
+            ):
                 if not allowed:
                     self.stack[-1].postponed = True
                     return True
