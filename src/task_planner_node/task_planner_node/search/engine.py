@@ -125,23 +125,25 @@ class Search:
             if node.tested != geometry.version:
                 node.tested = geometry.version
                 if self.hopeless(node.network, node.where):
-                    stack.pop()
-                    self._undo(node)
-                    self._statistics.backtracks += 1
+                    self._leave()
                     continue
             child = next(node.moves, None)
             if child:
                 return child
             if child is None:
-                stack.pop()
-                self._statistics.backtracks += 1
+                self._leave()
                 if stack:
                     stack[-1].unproven |= node.unproven
                     stack[-1].postponed |= node.postponed
-                    self._undo(stack[-1])
             else:
                 state.undo(node.mark)
         return None
+
+    def _leave(self) -> None:
+        """Go back from the last choice to the one before it, and undo what was done between them."""
+        node = self.stack.pop()
+        self._statistics.backtracks += 1
+        self._undo(self.stack[-1] if self.stack else node)
 
     def _backward(self) -> Position | None:
         self._statistics.backtracks += 1
