@@ -21,7 +21,7 @@ from interface_node.waiting import TimedOut, wait_until
 
 PLAN, PICTURE, RECORDING = 'plan.json', 'mission.png', 'mission.mcap'
 #: The decomposition tree of the plan, by the format of the service ``explain``.
-TREES = {'tree': 'tree.txt', 'json': 'tree.json', 'svg': 'tree.svg'}
+TREES = {'tree': 'tree.txt', 'json': 'tree.json', 'svg': 'tree.svg', 'ipc': 'plan.ipc'}
 
 
 class Outputs:

@@ -249,6 +249,7 @@ def test_a_mission_is_planned_published_and_written(
     assert sorted(file.name for file in out.iterdir()) == [
         'mission.mcap',
         'mission.png',
+        'plan.ipc',
         'plan.json',
         'tree.json',
         'tree.svg',
@@ -366,7 +367,8 @@ def test_a_file_that_cannot_be_written_does_not_hinder_the_others(
 ) -> None:
     (tmp_path / name).mkdir()
     result = team.client.plan(output_directory=str(tmp_path)).result
-    names = {'plan.json', 'mission.png', 'mission.mcap', 'tree.txt', 'tree.json', 'tree.svg'}
+    trees = {'tree.txt', 'tree.json', 'tree.svg', 'plan.ipc'}
+    names = {'plan.json', 'mission.png', 'mission.mcap'} | trees
     assert {Path(file).name for file in result.files} == names - {name}
     assert {file.name for file in tmp_path.iterdir()} == names
     (remark,) = result.outcome.diagnostics

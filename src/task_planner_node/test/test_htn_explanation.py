@@ -211,6 +211,8 @@ def test_every_tree_is_written_whole_whatever_the_names(tree: Tree) -> None:
     )
     assert boxes + ellipses >= len(nodes)
     assert written(tree, 'tree').count('\n') >= len(nodes)
+    decomposed = [node for node in nodes if not node.primitive]
+    assert written(tree, 'ipc').count(' -> ') == len(decomposed)
 
 
 def test_deep_and_large_trees_are_written_too(plan: Plan) -> None:

@@ -16,6 +16,7 @@ from task_planner_node.oracle import (
     Answer,
     CandidateAdvice,
     Query,
+    Scope,
     Status,
     TextCheck,
     Token,
@@ -166,3 +167,29 @@ def test_behaviour_constraints_are_handed_on(plan: Planned) -> None:
     result = plan(domain, '(defproblem p d () ((!go far)))', Listening(LINE))
     assert result.outcome == Outcome.SOLVED
     assert (queries[0].preconditions, queries[0].behaviour) == ('((near far))', '((slow far))')
+
+
+class Shut(Plane):
+    """A plane whose places in ``shut`` cannot be reached from anywhere."""
+
+    shut: frozenset[str] = frozenset({'b'})
+
+    def satisfy(self, query: Query) -> Answer:
+        if self._place(query.preconditions) in self.shut:
+            return Answer(Status.IMPOSSIBLE, 103, Scope.CONNECTED_STARTS, 'walled in')
+        return super().satisfy(query)
+
+
+@pytest.mark.parametrize('use_advice', [True, False])
+def test_nothing_is_left_of_a_way_that_a_lasting_impossibility_ended(
+    plan: Planned, use_advice: bool
+) -> None:
+    domain = """(defdomain d (
+        (:operator (!note ?p) ((not (noted))) () ((noted)))
+        (Operator (!visit ?p) () ((near ?p)) ())
+        (:method (visit-any) ((place ?p)) ((!note ?p) (!visit ?p)))))"""
+    problem = '(defproblem p d ((place b) (place a)) ((visit-any)))'
+    options = Options(use_advice=use_advice)
+    result = plan(domain, problem, Shut({'a': (3.0, 4.0), 'b': (1.0, 0.0)}), options)
+    assert result.outcome == Outcome.SOLVED
+    assert [step.action for step in result.steps] == [('!note', 'a'), ('!visit', 'a')]

@@ -207,7 +207,11 @@ def test_a_plan_of_twenty_thousand_steps_is_found(plan: Plan) -> None:
         ('(:method (t ?x) () ((!a ?x) (t ?x)) stop () ())', '(t a): it comes up again'),
         ('(:method (t ?x) () ((!a ?x) (t ?x) (!a ?x)))', 'more than 1000 decompositions'),
         ('(:method (t ?x) () ((t (?x))) stop () ())', 'nests deeper than 200'),
-        ('(:- (p ?x) ((p ?x)))(:method (t ?x) ((p ?x)) ())', 'the axioms recurse too deeply'),
+        ('(:- (p ?x) ((p ?x)))(:method (t ?x) ((p ?x)) ())', 'nothing can make (p a) true'),
+        (
+            '(:- (p ?x ?n) ((p ?x (call + ?n 1))))(:method (t ?x) ((p ?x 0)) ())',
+            'the axioms recurse too deeply',
+        ),
     ],
 )
 def test_what_never_ends_is_ended(plan: Plan, method: str, message: str) -> None:

@@ -1,4 +1,4 @@
-"""The decomposition tree of a plan: as text, JSON, for Graphviz, and as a picture."""
+"""The decomposition tree of a plan: as text, JSON, for Graphviz, as a picture, and as competitions have it."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from itertools import islice
 
 from task_planner_node.explanation.picture import svg
 from task_planner_node.explanation.rows import Row, more, rows_of, title
+from task_planner_node.hddl import plan_text
 from task_planner_node.search.tree import Tree
 
 #: Lines and nodes of a tree that are written for people.
@@ -77,6 +78,7 @@ FORMATS: Mapping[str, Callable[[Tree], str]] = {
     'json': as_json,
     'dot': dot,
     'svg': svg,
+    'ipc': plan_text,
 }
 
 

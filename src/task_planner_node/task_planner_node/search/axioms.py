@@ -46,17 +46,49 @@ class _Variant:
     axioms: tuple[_CompiledAxiom, ...]
 
 
+class Proofs:
+    """Ground literals that are being derived, and what became of others meanwhile.
+
+    What could not be derived may have lacked a literal that was open: it is settled when that one cannot be derived
+    either, and is tried again when something can.
+    """
+
+    def __init__(self) -> None:
+        self.open: set[Fact] = set()
+        self.derived: set[Fact] = set()
+        self.failed: set[Fact] = set()
+
+    def settle(self, fact: Fact, derived: bool) -> None:
+        """An open literal was derived, or could not be."""
+        self.open.discard(fact)
+        if not self.open:
+            self.derived.clear()
+            self.failed.clear()
+        elif derived:
+            self.derived.add(fact)
+            self.failed.clear()
+        else:
+            self.failed.add(fact)
+
+
 class DerivedPredicate:
     """A predicate that holds for facts and where an axiom says so."""
 
     def __init__(
-        self, name: str, arity: int, axioms: Sequence[Axiom], source: Source, compiler: Compiler
+        self,
+        name: str,
+        arity: int,
+        axioms: Sequence[Axiom],
+        source: Source,
+        compiler: Compiler,
+        proofs: Proofs,
     ) -> None:
         self._name = name
         self._arity = arity
         self._axioms = axioms
         self._source = source
         self._compiler = compiler
+        self._proofs = proofs
         self._variants: dict[Known, _Variant] = {}
         self._everything = (True,) * arity
 
@@ -90,9 +122,23 @@ class DerivedPredicate:
         return solutions
 
     def holds(self, state: State, fact: Fact) -> bool:
-        """Whether a ground literal holds."""
+        """Whether a ground literal holds; one that comes up below itself is no reason for itself."""
         if fact in state.facts:
             return True
+        proofs = self._proofs
+        if fact in proofs.derived:
+            return True
+        if fact in proofs.open or fact in proofs.failed:
+            return False
+        proofs.open.add(fact)
+        found = False
+        try:
+            found = self._derivable(state, fact)
+        finally:
+            proofs.settle(fact, found)
+        return found
+
+    def _derivable(self, state: State, fact: Fact) -> bool:
         variant = self._variants.get(self._everything) or self._variant(self._everything)
         for axiom in variant.axioms:
             frame = axiom.bind(fact)

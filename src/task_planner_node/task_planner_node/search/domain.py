@@ -21,7 +21,7 @@ from task_planner_node.language.model import (
     Protection,
     TaskNetwork,
 )
-from task_planner_node.search.axioms import DerivedPredicate
+from task_planner_node.search.axioms import DerivedPredicate, Proofs
 from task_planner_node.search.compilation import Compiler
 from task_planner_node.search.conditions import Conjunction
 from task_planner_node.search.early import Early
@@ -91,8 +91,9 @@ class CompiledDomain:
         heads: dict[tuple[str, int], list[Axiom]] = {}
         for axiom in domain.axioms:
             heads.setdefault((axiom.head.name, len(axiom.head.args)), []).append(axiom)
+        proofs = Proofs()
         for (name, arity), axioms in heads.items():
-            predicate = DerivedPredicate(name, arity, axioms, domain.source, compiler)
+            predicate = DerivedPredicate(name, arity, axioms, domain.source, compiler, proofs)
             compiler.axioms[name, arity] = predicate
         self._texts: dict[str, Operator] = {o.head.name: o for o in domain.operators}
         self._method_texts: dict[str, list[Method]] = {}

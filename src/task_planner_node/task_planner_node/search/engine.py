@@ -35,6 +35,8 @@ PATIENCE = 1000
 MOST_NOTED = 200
 # A task is looked for among so many of those that it came from.
 MOST_ANCESTORS = 100
+# Names of tasks with the states in which they came up, as far as they are remembered.
+MOST_BEGUN = 500_000
 
 
 class Search:
@@ -74,6 +76,7 @@ class Search:
         self._check = check
         self._ways = Ways(self, domain, beginning, state, geometry, limits)
         self._repeats = 0
+        self._begun: set[tuple[object, tuple[int, Token]]] = set()
         self._steps = 0
 
     def run(self, start: Token) -> None:
@@ -122,23 +125,25 @@ class Search:
             if node.tested != geometry.version:
                 node.tested = geometry.version
                 if self.hopeless(node.network, node.where):
-                    stack.pop()
-                    self._undo(node)
-                    self._statistics.backtracks += 1
+                    self._leave()
                     continue
             child = next(node.moves, None)
             if child:
                 return child
             if child is None:
-                stack.pop()
-                self._statistics.backtracks += 1
+                self._leave()
                 if stack:
                     stack[-1].unproven |= node.unproven
                     stack[-1].postponed |= node.postponed
-                    self._undo(stack[-1])
             else:
                 state.undo(node.mark)
         return None
+
+    def _leave(self) -> None:
+        """Go back from the last choice to the one before it, and undo what was done between them."""
+        node = self.stack.pop()
+        self._statistics.backtracks += 1
+        self._undo(self.stack[-1] if self.stack else node)
 
     def _backward(self) -> Position | None:
         self._statistics.backtracks += 1
@@ -217,18 +222,27 @@ class Search:
             )
         return True
 
-    def repeats(self, task: Task, parent: Expansion | None, since: tuple[int, int]) -> bool:
+    def repeats(self, task: Task, parent: Expansion | None, start: Token) -> bool:
         """Whether a task came up below itself in the same state more often than this round allows.
 
         It is then left for a later round.
         """
+        since = (self._state.key, start)
+        begun = (task[0], since)
+        if begun not in self._begun:
+            if len(self._begun) >= MOST_BEGUN:
+                self._begun.clear()
+            self._begun.add(begun)
+            return False
         allowed = self._repeats
         loose = self._domain.loose
         wanted = shape(task) if loose else task
         for _ in range(MOST_ANCESTORS):
-            if parent is None or parent.since != since:
+            if parent is None:
                 return False
-            if parent.task == task or (loose and shape(parent.task) == wanted):
+            if parent.since == since and (
+                parent.task == task or (loose and shape(parent.task) == wanted)
+            ):
                 if not allowed:
                     self.stack[-1].postponed = True
                     return True

@@ -15,8 +15,8 @@ from task_planner_node.search.unbound import Values
 class Expansion:
     """A task that was done by an operator or decomposed by a branch: one line of the search's log.
 
-    ``since`` identifies the state and the number of actions at a recursive task; ``mark`` is the length of the trail
-    after an operator.
+    ``since`` identifies the facts and the attitudes at a recursive task; ``mark`` is the length of the trail after an
+    operator.
     """
 
     __slots__ = ('by', 'mark', 'motion', 'parent', 'place', 'since', 'task', 'values')
@@ -34,7 +34,7 @@ class Expansion:
         self.by = by
         self.mark = 0
         self.motion: Motion | None = None
-        self.since: tuple[int, int] | None = None
+        self.since: tuple[int, Token] | None = None
         self.values: Values | None = None
 
 

@@ -104,7 +104,7 @@ class Ways:
     def _bind(self, position: Position, cell: Cell, path: Path, focus: bool) -> Moves:
         """The ways of a task that has arguments without a value."""
         task = cell[0]
-        if self._search.repeats(task, cell[2], (self._state.mark(), position[4])):
+        if self._search.repeats(task, cell[2], position[1].start):
             return
         mark = self._state.mark()
         tried = False
@@ -203,7 +203,7 @@ class Ways:
         if task[0] in self._domain.recursive:
             if not path and self._search.visits(cell, position[1], position[2]):
                 return None
-            if self._search.repeats(task, cell[2], (self._state.mark(), position[4])):
+            if self._search.repeats(task, cell[2], position[1].start):
                 return None
         state = self._state
         methods = self._domain.methods.get(task[0], ())
@@ -277,7 +277,7 @@ class Ways:
         task = cell[0]
         expansion = Expansion(task, cell[2], cell[3], branch)
         if task[0] in self._domain.recursive or self._domain.loose:
-            expansion.since = (self._state.mark(), actions)
+            expansion.since = (self._state.key, where.start)
         self._log.append(expansion)
         grown = branch.grow(frame, cell[1], expansion)
         if path:
