@@ -248,7 +248,7 @@ def test_a_signal_stops_the_node_cleanly(number: signal.Signals) -> None:
         wait_until_ready(process)
         process.send_signal(number)
         output, _ = process.communicate(timeout=DEADLINE)
-    assert process.returncode == 0
+    assert process.returncode == 0, output
     assert 'Traceback' not in output
 
 
