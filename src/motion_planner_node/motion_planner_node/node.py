@@ -26,7 +26,7 @@ from motion_planner_node.planning.check import check_text
 from motion_planner_node.planning.sampled import sampled
 from motion_planner_node.requests import AdviceAnswer, GeometricAnswer
 from motion_planner_node.settings_node import Settings
-from motion_planner_node.signals import interrupt_on_signals
+from motion_planner_node.signals import held_back, interrupt_on_signals
 from motion_planner_node.turns import Turns
 from motion_planner_node.worlds_node import Worlds, diagnostics_of
 
@@ -251,8 +251,9 @@ def _serve() -> None:
 
     spinning = [threading.Thread(target=spin) for _ in range(THREADS)]
     try:
-        for thread in spinning:
-            thread.start()
+        with held_back():
+            for thread in spinning:
+                thread.start()
         node.get_logger().info('ready')
         while all(thread.is_alive() for thread in spinning):
             node.stopping.wait(0.5)
@@ -260,7 +261,8 @@ def _serve() -> None:
         node.finish()
         executor.wake()
         for thread in spinning:
-            thread.join()
+            if thread.ident is not None:
+                thread.join()
         executor.shutdown()
         node.destroy_node()
 
