@@ -2,6 +2,7 @@
 
 from motion_planner_node.satisfaction.branch_and_prune import branch_and_prune
 from motion_planner_node.satisfaction.cells import Cells, possible_cells
+from motion_planner_node.satisfaction.compiling import compile_program
 from motion_planner_node.satisfaction.conflicts import separation, together, unsolved
 from motion_planner_node.satisfaction.descent import Descent, DescentOptions, descend
 from motion_planner_node.satisfaction.destinations import (
@@ -10,7 +11,7 @@ from motion_planner_node.satisfaction.destinations import (
     from_start,
     restarts,
 )
-from motion_planner_node.satisfaction.program import TOLERANCE, Program, compile_program
+from motion_planner_node.satisfaction.program import TOLERANCE, Program
 from motion_planner_node.satisfaction.room import Room
 from motion_planner_node.satisfaction.row import wrap
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from task_planner_node.language.model import (
     And,
@@ -42,6 +42,15 @@ def tasks_of(network: TaskNetwork) -> Iterator[Atom]:
     else:
         for item in network.items:
             yield from tasks_of(item)
+
+
+def effects_of(effects: Iterable[Effect]) -> Iterator[Effect]:
+    """All effects that are not made of others, also those under a condition, in the order of the text."""
+    for effect in effects:
+        if isinstance(effect, ForEach):
+            yield from effects_of(effect.effects)
+        else:
+            yield effect
 
 
 def parts_of(condition: Condition) -> tuple[Condition, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -12,8 +12,6 @@ from task_planner_node.language.model import (
     Axiom,
     Condition,
     Domain,
-    Effect,
-    ForEach,
     Immediate,
     Method,
     Operator,
@@ -21,6 +19,7 @@ from task_planner_node.language.model import (
     Protection,
     TaskNetwork,
 )
+from task_planner_node.language.walk import effects_of
 from task_planner_node.search.axioms import DerivedPredicate, Proofs
 from task_planner_node.search.compilation import Compiler
 from task_planner_node.search.conditions import Conjunction
@@ -87,7 +86,7 @@ class CompiledDomain:
         self._assigning = assigning
         self._early = Early(domain)
         effects = [e for o in domain.operators for e in (*o.deletes, *o.adds)]
-        self._protecting = any(isinstance(effect, Protection) for effect in _flat(effects))
+        self._protecting = any(isinstance(effect, Protection) for effect in effects_of(effects))
         heads: dict[tuple[str, int], list[Axiom]] = {}
         for axiom in domain.axioms:
             heads.setdefault((axiom.head.name, len(axiom.head.args)), []).append(axiom)
@@ -169,14 +168,6 @@ class CompiledDomain:
 
     def _condition(self, condition: Condition, slots: Slots) -> Conjunction:
         return self._compiler.condition(condition, slots, set())
-
-
-def _flat(effects: Iterable[Effect]) -> Iterator[Effect]:
-    for effect in effects:
-        if isinstance(effect, ForEach):
-            yield from _flat(effect.effects)
-        else:
-            yield effect
 
 
 def _is_immediate(network: TaskNetwork) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 from task_planner_node.language.model import (
     And,
@@ -10,8 +10,6 @@ from task_planner_node.language.model import (
     Branch,
     Condition,
     Domain,
-    Effect,
-    ForEach,
     Method,
     Not,
     Operator,
@@ -20,7 +18,7 @@ from task_planner_node.language.model import (
     Variable,
     show,
 )
-from task_planner_node.language.walk import tasks_of, variables_of
+from task_planner_node.language.walk import effects_of, tasks_of, variables_of
 
 Literal = Atom | Not
 Values = dict[str, Term]
@@ -41,7 +39,7 @@ class Early:
         self._changing = {axiom.head.name for axiom in domain.axioms}
         effects = [e for o in domain.operators for e in (*o.deletes, *o.adds)]
         self._all_rigid = True
-        for effect in _flat(effects):
+        for effect in effects_of(effects):
             if isinstance(effect, Atom):
                 self._changing.add(effect.name)
             elif not isinstance(effect, Protection):
@@ -105,14 +103,6 @@ class Early:
             return self._operators[name]
         methods = self._methods.get(name, [])
         return methods[0] if len(methods) == 1 and len(methods[0].branches) == 1 else None
-
-
-def _flat(effects: Iterable[Effect]) -> Iterator[Effect]:
-    for effect in effects:
-        if isinstance(effect, ForEach):
-            yield from _flat(effect.effects)
-        else:
-            yield effect
 
 
 def _conjuncts(condition: Condition) -> Iterator[Literal]:

@@ -6,12 +6,11 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from task_planner_node.oracle import Answer, Status
-from task_planner_node.search.dead_ends import not_satisfied
+from task_planner_node.search.acting import act, unsatisfied
 from task_planner_node.search.geometry import Geometry, Request
-from task_planner_node.search.network import Cell, Kept, Path, replace
+from task_planner_node.search.network import Cell, Path, replace
 from task_planner_node.search.operators import CompiledOperator
 from task_planner_node.search.partial_plan import (
-    Expansion,
     Limits,
     Motion,
     Moves,
@@ -49,10 +48,7 @@ class Motions:
             satisfied = True
             yield from self.answered(position, cell, path, operator, frame)
         if not satisfied:
-            failure = operator.condition.first_failure
-            self._search.dead_ends.add(
-                task, 'symbolic', lambda: not_satisfied([('', failure(self._state, frame))])
-            )
+            unsatisfied(self._search, self._state, task, operator, frame)
 
     def answered(
         self,
@@ -113,17 +109,11 @@ class Motions:
         answer: Answer,
     ) -> Position | None:
         network, where, cost, rest_cost, actions, _, _ = position
-        price = operator.cost(frame)
-        reason = operator.apply(self._state, frame)
-        if isinstance(cell[0], Kept) and not cell[0].done(self._state.facts):
-            reason = 'it would not do any more what it did in the plan before'
-        if reason:
-            self._search.dead_ends.add(cell[0], 'protected', reason)
+        acted = act(self._search, self._state, cell, operator, frame)
+        if acted is None:
             return None
-        expansion = Expansion(cell[0], cell[2], cell[3], operator)
-        expansion.mark = self._state.mark()
+        price, expansion = acted
         expansion.motion = Motion(price, request.text, where.start, answer)
-        self._search.log.append(expansion)
         lineage = answer.end if answer.assigned else where.lineage
         met = where.met | {request.text} if self._optimise else where.met
         return (

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from task_planner_node.search.acting import act, unsatisfied
 from task_planner_node.search.candidates import Bindings, Candidates
 from task_planner_node.search.conditions import Found
 from task_planner_node.search.dead_ends import Reason, not_satisfied
@@ -16,7 +17,6 @@ from task_planner_node.search.methods import CompiledBranch, CompiledMethod
 from task_planner_node.search.motions import Motions
 from task_planner_node.search.network import (
     Cell,
-    Kept,
     Path,
     Task,
     all_tasks,
@@ -141,7 +141,7 @@ class Ways:
         if found is True:
             return self._act(position, cell, path, operator, frame)
         if found is False:
-            self._unsatisfied(task, operator, frame)
+            unsatisfied(self._search, self._state, task, operator, frame)
             return None
         return self._each(position, cell, path, operator, frame, found)
 
@@ -164,7 +164,7 @@ class Ways:
             else:
                 self._state.undo(mark)
         if not satisfied:
-            self._unsatisfied(cell[0], operator, frame)
+            unsatisfied(self._search, self._state, cell[0], operator, frame)
 
     def _act(
         self,
@@ -175,18 +175,12 @@ class Ways:
         frame: Frame,
     ) -> Position | None:
         network, where, cost, rest_cost, actions, _, _ = position
-        price = operator.cost(frame)
-        reason = operator.apply(self._state, frame)
-        if isinstance(cell[0], Kept) and not cell[0].done(self._state.facts):
-            reason = 'it would not do any more what it did in the plan before'
-        if reason:
-            self._search.dead_ends.add(cell[0], 'protected', reason)
+        acted = act(self._search, self._state, cell, operator, frame)
+        if acted is None:
             return None
-        expansion = Expansion(cell[0], cell[2], cell[3], operator)
-        expansion.mark = self._state.mark()
+        price, expansion = acted
         if price != operator.least_cost:
             expansion.motion = Motion(price)
-        self._log.append(expansion)
         return (
             replace(network, path, cell[1], to_front=True) if path else cell[1],
             where,
@@ -304,12 +298,6 @@ class Ways:
         return sum(least.get(name, 0.0) for name in branch.tasks) - least.get(task[0], 0.0)
 
     # Why there is no way
-
-    def _unsatisfied(self, task: Task, operator: CompiledOperator, frame: Frame) -> None:
-        def reason() -> Reason:
-            return not_satisfied([('', operator.condition.first_failure(self._state, frame))])
-
-        self._search.dead_ends.add(task, 'symbolic', reason)
 
     def _undecomposed(self, task: Task, methods: Sequence[CompiledMethod]) -> None:
         bound = [(method, method.bind(task)) for method in methods]
