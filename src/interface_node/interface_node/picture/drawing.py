@@ -2,33 +2,44 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from io import BytesIO
 from math import cos, hypot, sin
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection
-from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.colors import to_rgba_array
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch, Polygon
+from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from interface_node.driving import sample
 from interface_node.footprint import robot_outline
 from interface_node.picture.labels import place_labels
+from interface_node.picture.legend import legend_handles
+from interface_node.picture.marks import (
+    Mark,
+    draw_marks,
+    draw_starts,
+    group_marks,
+    number_style,
+    pill,
+)
+from interface_node.picture.robots import robot_colors, robots_in_sight, starts
+from interface_node.picture.style import BETWEEN, INK, OBJECTIVE, PAIR, PROGRESS, QUIET, VIEW
 from interface_node.picture.terrain import (
-    OBSTACLE,
     OBSTACLE_EDGE,
-    REGION,
     REGION_EDGE,
+    centroid,
     draw_map,
     draw_obstacles,
     draw_regions,
 )
-from interface_node.plan import Plan, Step, World
+from interface_node.plan import Plan, World
 
 #: Pixels an inch, and inches of the longer side.
 DPI, LONG_SIDE = 150, 10.67
@@ -36,10 +47,6 @@ DPI, LONG_SIDE = 150, 10.67
 BELOW_AXIS = 0.6
 #: More objects than this are drawn without their labels.
 MAX_LABELS = 100
-
-START, END = '#1a9641', '#d7191c'
-PROGRESS = LinearSegmentedColormap.from_list('progress', [START, '#2c7fb8', '#7b3294', END])
-OBJECTIVE, INK, QUIET = '#ffd23f', '#22262b', '#6b7480'
 
 
 def write_picture(plan: Plan) -> bytes:
@@ -76,24 +83,27 @@ def draw(plan: Plan) -> Figure:
     draw_regions(axes, world)
     draw_map(axes, world)
     draw_obstacles(axes, world)
-    way = _draw_way(axes, plan, world)
+    colors = robot_colors(plan)
+    way = _draw_way(axes, plan, world, colors)
     looked_at = _draw_viewing_lines(axes, plan, world)
     _draw_objects(axes, world)
     _draw_footprints(axes, plan, world)
-    _draw_attitudes(axes, plan, world)
+    marks = group_marks(plan, colors, _size(world) / 80)
+    draw_marks(axes, marks, _size(world) / 26)
+    draw_starts(axes, starts(plan), colors)
     axes.legend(
-        handles=_legend(plan, world),
+        handles=legend_handles(plan, world, colors),
         loc='upper center',
         # Below the axis and its label, which take the same room in every picture.
         bbox_to_anchor=(0.5, -BELOW_AXIS / figure.get_figheight()),
-        ncols=7,
+        ncols=8,
         frameon=False,
         fontsize=9,
         labelcolor=INK,
         handletextpad=0.5,
         columnspacing=1.6,
     )
-    _draw_labels(figure, axes, plan, world, np.vstack([way, looked_at]))
+    _draw_labels(figure, axes, world, marks, np.vstack([way, looked_at]))
     return figure
 
 
@@ -105,20 +115,27 @@ def _title(plan: Plan) -> str:
     return f'{name}: {actions}, {plan.length:,.0f} m'
 
 
-def _draw_way(axes: Axes, plan: Plan, world: World) -> NDArray[np.float64]:
-    """Draw what is driven, coloured by progress; give the points that it passes, (n, 2) [m]."""
+def _draw_way(
+    axes: Axes, plan: Plan, world: World, robots: Mapping[str, str]
+) -> NDArray[np.float64]:
+    """Draw what is driven; give the points that it passes, (n, 2) [m].
+
+    Coloured by robot with the colours ``robots``, by progress when there are none.
+    """
     spacing = _size(world) / 400
-    legs = []
+    legs, drivers = [], []
     for step in plan.steps:
         robot = world.robot(step.agent)
         if step.segments and step.start and robot:
             legs.append(sample(step.start, step.segments, robot.wheelbase, spacing)[:, :2])
+            drivers += [robots.get(step.agent, BETWEEN)] * (len(legs[-1]) - 1)
     if not legs:
         return np.empty((0, 2))
     pieces = np.vstack([np.stack([leg[:-1], leg[1:]], axis=1) for leg in legs])
     lengths = np.hypot(*(pieces[:, 1] - pieces[:, 0]).T)
     driven = np.cumsum(lengths)
-    colors = PROGRESS(driven / driven[-1] if driven[-1] else driven)
+    progress = PROGRESS(driven / driven[-1] if driven[-1] else driven)
+    colors = to_rgba_array(drivers) if robots else progress
     axes.add_collection(
         LineCollection(list(pieces), colors=colors, linewidths=2.4, capstyle='round', zorder=4)
     )
@@ -158,8 +175,19 @@ def _draw_viewing_lines(axes: Axes, plan: Plan, world: World) -> NDArray[np.floa
         if label in world.objects
     ]
     axes.add_collection(
-        LineCollection(lines, colors=INK, linewidths=1.0, linestyles=(0, (4, 3)), zorder=3)
+        LineCollection(lines, colors=INK, linewidths=1.0, linestyles=VIEW, zorder=3)
     )
+    between = [
+        ((step.end.x, step.end.y), (other.x, other.y))
+        for step in plan.steps
+        if step.end and not step.assigned
+        for other in robots_in_sight(step)
+    ]
+    if between:
+        axes.add_collection(
+            LineCollection(between, colors=INK, linewidths=1.1, linestyles=PAIR, zorder=3)
+        )
+        lines += between
     share = np.linspace(0, 1, 20)[:, None]
     points = [np.array(a) * (1 - share) + np.array(b) * share for a, b in lines]
     return np.vstack([np.empty((0, 2)), *points])
@@ -175,7 +203,8 @@ def _draw_objects(axes: Axes, world: World) -> None:
             color=OBJECTIVE,
             markeredgecolor=INK,
             markeredgewidth=0.9,
-            zorder=6,
+            # Above the arrows of those who look at it.
+            zorder=7.2,
             gid=label,
         )
 
@@ -191,81 +220,69 @@ def _draw_footprints(axes: Axes, plan: Plan, world: World) -> None:
             )
 
 
-def _draw_attitudes(axes: Axes, plan: Plan, world: World) -> None:
-    reach = _size(world) / 26
-    placed = [(number, step) for number, step in enumerate(plan.steps, 1) if step.end]
-    for number, step in placed:
-        assert step.end is not None
-        x, y, heading = step.end.x, step.end.y, step.end.heading
-        color = _attitude_color(number, step, placed[0][0], placed[-1][0])
-        axes.annotate(
-            '',
-            xy=(x + reach * cos(heading), y + reach * sin(heading)),
-            xytext=(x, y),
-            arrowprops={
-                'arrowstyle': '-|>,head_width=0.3,head_length=0.6',
-                'color': color,
-                'linewidth': 2.2,
-                'shrinkA': 0,
-                'shrinkB': 0,
-                'path_effects': [withStroke(linewidth=4, foreground='white')],
-            },
-            zorder=7,
-        )
-        axes.plot(x, y, marker='o', markersize=14, color=color, mec='white', mew=1.2, zorder=8)
-        axes.annotate(
-            str(number),
-            (x, y),
-            ha='center',
-            va='center_baseline',
-            fontsize=9 if number < 100 else 6,
-            fontweight='bold',
-            color='white',
-            zorder=9,
-        )
-
-
-def _attitude_color(number: int, step: Step, first: int, last: int) -> str:
-    if number == first and step.assigned:
-        return START
-    return END if number == last else '#2c5f9e'
-
-
 def _draw_labels(
-    figure: Figure, axes: Axes, plan: Plan, world: World, lines: NDArray[np.float64]
+    figure: Figure,
+    axes: Axes,
+    world: World,
+    marks: Sequence[Mark],
+    lines: NDArray[np.float64],
 ) -> None:
-    """Write the objects' names where they cover least, once the layout is settled."""
-    if not 0 < len(world.objects) <= MAX_LABELS:
-        return
+    """Write names, and numbers that fit no mark, where they cover least in the settled layout."""
     halo = [withStroke(linewidth=3, foreground='white')]
+    name: dict[str, Any] = {'fontsize': 9.5, 'color': INK, 'path_effects': halo}
+    region = {**name, 'fontsize': 8.5, 'color': REGION_EDGE, 'fontstyle': 'italic'}
+    labels: list[tuple[str, tuple[float, float], dict[str, Any]]] = [
+        *(
+            (
+                mark.text,
+                (mark.place.x, mark.place.y),
+                number_style(mark) | {'bbox': pill(mark.color)},
+            )
+            for mark in marks
+            if mark.crowded
+        ),
+        *((shape.name, centroid(shape), region) for shape in world.regions),
+    ]
+    if len(world.objects) <= MAX_LABELS:
+        labels = [*((label, place, name) for label, place in world.objects.items()), *labels]
+    if not labels:
+        return
     texts = [
         axes.annotate(
             label,
-            (x, y),
+            place,
             xytext=(0, 0),
             textcoords='offset pixels',
             ha='center',
             va='center',
-            fontsize=9.5,
-            color=INK,
-            path_effects=halo,
             parse_math=False,
+            # What lies outside of the map, as the middle of a region may, has no label.
+            annotation_clip=True,
             zorder=10,
+            **style,
         )
-        for label, (x, y) in world.objects.items()
+        for label, place, style in labels
     ]
     figure.draw_without_rendering()
     extents = [text.get_window_extent() for text in texts]
     pixels = axes.transData.transform
-    anchors = [tuple(point) for point in pixels(list(world.objects.values()))]
-    attitudes = [step.end for step in plan.steps if step.end]
+    anchors = [tuple(point) for point in pixels([place for _, place, _ in labels])]
     crowd = np.vstack(
         [
             pixels(lines.reshape(-1, 2)),
             # Markers have an extent: five points each, weighed like a piece of the way.
             *(_block(pixels(mark), 8) for mark in world.objects.values()),
-            *(_block(pixels((a.x, a.y)), 16) for a in attitudes),
-            *(_arrow_points(pixels((a.x, a.y)), a.heading) for a in attitudes),
+            *(
+                _block(pixels((mark.place.x, mark.place.y)) + np.array([shift, 0.0]), 16)
+                for mark in marks
+                # Two numbers lie side by side.
+                for shift in ((-8.0, 8.0) if len(mark.numbers) == 2 else (0.0,))
+            ),
+            *(
+                _arrow_points(pixels((mark.place.x, mark.place.y)), heading)
+                for mark in marks
+                for heading in mark.headings
+            ),
         ]
     )
     frame = axes.get_window_extent()
@@ -290,29 +307,6 @@ def _arrow_points(origin: NDArray[np.float64], heading: float) -> NDArray[np.flo
     direction = np.array([cos(heading), sin(heading)])
     points: NDArray[np.float64] = origin + reach * direction
     return points
-
-
-def _legend(plan: Plan, world: World) -> list[Line2D | Patch]:
-    def dot(color: str, label: str, marker: str = 'o', edge: str = 'white') -> Line2D:
-        return Line2D(
-            [], [], ls='', marker=marker, ms=9, color=color, mec=edge, mew=0.9, label=label
-        )
-
-    handles: list[Line2D | Patch] = [
-        Patch(facecolor=OBSTACLE, edgecolor=OBSTACLE_EDGE, label='obstacle'),
-        dot(OBJECTIVE, 'object', 's', INK),
-    ]
-    if world.regions:
-        handles.append(Patch(facecolor=REGION, edgecolor=REGION_EDGE, ls='--', label='region'))
-    if any(step.end for step in plan.steps):
-        handles += [
-            dot(START, 'start'),
-            dot('#2c5f9e', 'attitude of an action'),
-            dot(END, 'end'),
-            Line2D([], [], color=INK, lw=1.0, ls=(0, (4, 3)), label='view'),
-            Line2D([], [], color=PROGRESS(0.4), lw=2.4, label='way driven'),
-        ]
-    return handles
 
 
 def _size(world: World) -> float:

@@ -19,25 +19,17 @@ REGION, REGION_EDGE = '#e3f1e6', '#5fa777'
 
 
 def draw_regions(axes: Axes, world: World) -> None:
-    """Draw the named parts of the map, under everything else, with their names."""
+    """Draw the named parts of the map, under everything else."""
     style = {'facecolor': REGION, 'edgecolor': REGION_EDGE, 'linewidth': 1.0, 'linestyle': '--'}
     for region in world.regions:
         axes.add_patch(_patch(region, zorder=0.5, **style))
-        corners = region.corners or (region.center,)
-        x, y = (sum(values) / len(corners) for values in zip(*corners, strict=True))
-        axes.text(
-            x,
-            y,
-            region.name,
-            ha='center',
-            va='center',
-            fontsize=8.5,
-            fontstyle='italic',
-            color=REGION_EDGE,
-            parse_math=False,
-            clip_on=True,
-            zorder=0.6,
-        )
+
+
+def centroid(shape: Obstacle) -> tuple[float, float]:
+    """The mean of the corners, or the centre of a disc [m]."""
+    corners = shape.corners or (shape.center,)
+    x, y = (sum(values) / len(corners) for values in zip(*corners, strict=True))
+    return x, y
 
 
 def draw_map(axes: Axes, world: World) -> None:

@@ -1,11 +1,11 @@
 ;; A guard tour in pairs.  A walker checks gates, one after the other, and a patrol car covers it: before
-;; the walker touches a gate, the car stands where it sees both the gate and the walker, and while the
-;; walker is at the gate it stays in the car's view.  Constraints may name several agents: the one that is
-;; stated first moves, the others stand where the actions before have left them.
+;; the walker goes to a gate, the car stands where it overlooks the gate, and while the walker is at the
+;; gate each has the other in view.  Constraints may name several agents: the one that is stated first
+;; moves, the others stand where the actions before have left them.
 
 (defdomain guards (
 
-;; The car takes a post from which it overlooks a gate and has the walker in sight.
+;; The car takes a place from which it overlooks a gate, and keeps clear of the walker.
 (Operator (!cover ?car ?gate ?walker)
   ( (covers ?car ?walker)(gate ?gate)(not (covered ?gate)) )
   ((agent ?car)(agent ?walker)(object ?gate)
@@ -13,7 +13,6 @@
    (distance(?car, ?gate) <= 16)
    (field_of_view(?car, ?gate, deg(70)))
    (visible(?car, ?gate))
-   (visible(?car, ?walker))
    (distance(?car, ?walker) >= 3))
   ( (covered ?gate) ))
 
@@ -21,6 +20,7 @@
 (Operator (!check_gate ?walker ?gate ?car)
   ( (covers ?car ?walker)(gate ?gate)(covered ?gate) )
   ((agent ?walker)(agent ?car)(object ?gate)
+   (distance(?walker, ?gate) >= 0.6)
    (distance(?walker, ?gate) <= 1.5)
    (facing(?walker, ?gate))
    (visible(?walker, ?gate))
@@ -34,6 +34,7 @@
 (Operator (!fetch_key ?walker ?box ?key)
   ( (hangs ?key ?box) )
   ((agent ?walker)(object ?box)
+   (distance(?walker, ?box) >= 0.6)
    (distance(?walker, ?box) <= 1)
    (facing(?walker, ?box))
    (visible(?walker, ?box)))
@@ -42,20 +43,22 @@
 (Operator (!return_key ?walker ?box ?key)
   ( (has_key ?walker ?key) )
   ((agent ?walker)(object ?box)
+   (distance(?walker, ?box) >= 0.6)
    (distance(?walker, ?box) <= 1)
    (facing(?walker, ?box))
    (visible(?walker, ?box)))
   ( (hangs ?key ?box)(not (has_key ?walker ?key)) ))
 
-;; At the end the two stand side by side at their post, the car on the walker's right.
-(Operator (!fall_in ?car ?walker ?post)
-  ( (covers ?car ?walker)(post ?post) )
-  ((agent ?car)(region ?post)
-   (inside(?car, ?post)))
+;; At the end the two stand side by side at their post: the car parks in the middle of it, and the
+;; walker comes to its left, looking the same way.
+(Operator (!fall_in ?car ?walker ?parking)
+  ( (covers ?car ?walker)(parking ?parking) )
+  ((agent ?car)(region ?parking)
+   (inside(?car, ?parking)))
   ( (at_post ?car) ))
 
 (Operator (!stand_beside ?walker ?car ?post)
-  ( (at_post ?car) )
+  ( (post ?post)(at_post ?car) )
   ((agent ?walker)(agent ?car)(region ?post)
    (inside(?walker, ?post))
    (distance(?walker, ?car) = 2.5)
