@@ -79,8 +79,12 @@ class Surroundings:
         return min([edges, *(obstacle.signed_distance(agent.at) for obstacle in self.obstacles)])
 
     def hidden(self, agent: Somebody, target: Somebody) -> float:
-        """How long [m] the line of sight runs through obstacles."""
-        return sum(obstacle.crossing(agent.at, target.at) for obstacle in self.obstacles)
+        """How long [m] the line of sight runs through obstacles that do not hold the target."""
+        return sum(
+            obstacle.crossing(agent.at, target.at)
+            for obstacle in self.obstacles
+            if obstacle.signed_distance(target.at) >= 0.0
+        )
 
 
 def _bearing(one: Somebody, other: Somebody) -> float:
@@ -92,8 +96,9 @@ def _relative(one: Somebody, other: Somebody, turned: float = 0.0) -> Angle:
     return Angle(one.heading - _bearing(one, other) + turned)
 
 
-def _between(one: Angle, other: Angle) -> float:
-    return abs(math.remainder(one.radians - other.radians, math.tau))
+def _between(one: Angle | float, other: Angle | float) -> float:
+    first, second = (a.radians if isinstance(a, Angle) else a for a in (one, other))
+    return abs(math.remainder(first - second, math.tau))
 
 
 def _distance_to_segment(at: Position, start: Position, end: Position) -> float:

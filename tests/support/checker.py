@@ -6,37 +6,55 @@ robots' equations of motion, and says in sentences what is wrong.
 
 from __future__ import annotations
 
-import itertools
 import json
-import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import yaml
-from shapely import box
+from shapely import box, unary_union
 from shapely.geometry.base import BaseGeometry
 
+from tests.support.occupancy import occupied_boxes
+from tests.support.preconditions import Preconditions
 from tests.support.vehicle import TOLERANCE, Pose, Vehicle, gap, motion_faults, outline_of
 
 
 class Judge:
-    """Checks a plan against the world that it was made for."""
+    """Checks a plan against the world and the domain, beside it, that it was made for."""
 
-    def __init__(self, plan_file: Path, world_file: Path):
+    def __init__(self, plan_file: Path, world_file: Path, domain_file: Path | None = None):
         self.plan: dict[str, Any] = json.loads(plan_file.read_text(encoding='utf-8'))
         world = yaml.safe_load(world_file.read_text(encoding='utf-8'))
-        self.objects: dict[str, dict[str, float]] = world['objects']
-        self.bounds: BaseGeometry = box(*world['bounds'])
         self.obstacles = {
             entry.get('name', f'obstacle{number}'): outline_of(entry)
-            for number, entry in enumerate(world['obstacles'], 1)
+            for number, entry in enumerate(world.get('obstacles', ()), 1)
         }
+        hiding = list(self.obstacles.values())
+        self.bounds: BaseGeometry
+        if 'map' in world:
+            self.bounds, cells = occupied_boxes(world_file.parent / world['map'])
+            self.obstacles['the occupancy map'] = unary_union(cells)
+            hiding += cells
+        if 'bounds' in world:
+            self.bounds = box(*world['bounds'])
         self.robots: dict[str, dict[str, Any]] = world['robots']
+        surroundings = {
+            'bounds': self.bounds.bounds,
+            'objects': world['objects'],
+            'regions': world.get('regions', ()),
+            # Touching an obstacle is no obstruction.
+            'obstacles': [
+                {'polygon': part.buffer(-TOLERANCE, join_style='mitre').exterior.coords}
+                for part in hiding
+            ],
+        }
+        domain = (domain_file or world_file.with_name('domain.lisp')).read_text(encoding='utf-8')
+        self.asked = Preconditions(domain, surroundings)
 
     def complaints(self) -> list[str]:
         """Everything that is wrong with the plan, one sentence each."""
-        return [*self._robots(), *self._continuity(), *self._motions(), *self._photos()]
+        return [*self._robots(), *self._continuity(), *self._motions(), *self._preconditions()]
 
     def _robots(self) -> Iterator[str]:
         described = {robot['label']: robot for robot in self.plan['robots']}
@@ -47,9 +65,13 @@ class Judge:
 
     def _continuity(self) -> Iterator[str]:
         steps = self.plan['steps']
-        for before, after in itertools.pairwise(steps):
-            if gap(pose(before['end']), pose(after['start'])) > TOLERANCE:
-                yield f'{after["action"]} starts elsewhere than {before["action"]} ends'
+        ends = self._starts()
+        for step in steps:
+            before = ends.get(step['agent'])
+            if before and not step['assigned'] and gap(before, pose(step['start'])) > TOLERANCE:
+                yield f'{step["action"]} starts elsewhere than {step["agent"]} was'
+            if step['agent']:
+                ends[step['agent']] = pose(step['end'])
         total = sum(step['length'] for step in steps)
         if abs(total - self.plan['length']) > TOLERANCE:
             yield f'the plan is {self.plan["length"]} m long, its steps {total} m'
@@ -73,21 +95,21 @@ class Judge:
             )
             yield from (f'{name}: {fault}' for fault in faults)
 
-    def _photos(self) -> Iterator[str]:
-        """The constraints of Figure 3: 50 to 100 m away, the objective at a right angle."""
+    def _preconditions(self) -> Iterator[str]:
+        """What the domain asks of attitudes, where every robot stands after each action."""
+        attitudes = self._starts()
         for step in self.plan['steps']:
-            if step['action'][0] != '!take_photo':
+            if not step['agent']:
                 continue
+            attitudes[step['agent']] = pose(step['end'])
             name = ' '.join(step['action'])
-            x, y, heading = pose(step['end'])
-            objective = self.objects[step['action'][2]]
-            east, north = objective['x'] - x, objective['y'] - y
-            distance = math.hypot(east, north)
-            if not 50 - TOLERANCE <= distance <= 100 + TOLERANCE:
-                yield f'{name}: {distance} m away'
-            angle = heading - math.atan2(north, east)
-            if abs(math.cos(angle)) > TOLERANCE or abs(math.sin(angle) - 1) > TOLERANCE:
-                yield f'{name}: the objective is seen under {math.degrees(angle)} degrees'
+            for fault in self.asked.faults(step['action'], step['agent'], attitudes):
+                yield f'{name}: {fault}'
+
+    def _starts(self) -> dict[str, Pose]:
+        return {
+            label: pose(robot['start']) for label, robot in self.robots.items() if 'start' in robot
+        }
 
 
 def pose(attitude: dict[str, float]) -> Pose:
