@@ -7,7 +7,7 @@ robots' equations of motion, and says in sentences what is wrong.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -77,6 +77,7 @@ class Judge:
             yield f'the plan is {self.plan["length"]} m long, its steps {total} m'
 
     def _motions(self) -> Iterator[str]:
+        attitudes = self._starts()
         for step in self.plan['steps']:
             name = ' '.join(step['action'])
             length = sum(abs(segment[1]) for segment in step['segments'])
@@ -90,10 +91,19 @@ class Judge:
                 pose(step['start']),
                 step['segments'],
                 pose(step['end']),
-                self.obstacles,
+                self.obstacles | self._standing(attitudes, step['agent']),
                 self.bounds,
             )
             yield from (f'{name}: {fault}' for fault in faults)
+            attitudes[step['agent']] = pose(step['end'])
+
+    def _standing(self, attitudes: Mapping[str, Pose], driver: str) -> dict[str, BaseGeometry]:
+        """The robots that stand while another one drives."""
+        return {
+            label: Vehicle(self.robots[label]).outline(attitude)
+            for label, attitude in attitudes.items()
+            if label != driver
+        }
 
     def _preconditions(self) -> Iterator[str]:
         """What the domain asks of attitudes, where every robot stands after each action."""

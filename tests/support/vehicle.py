@@ -99,6 +99,12 @@ class Vehicle:
         if not shapely.covers(bounds.buffer(TOLERANCE), self._bodies(driven)).all():
             yield 'leaves the map'
 
+    def outline(self, attitude: Pose) -> BaseGeometry:
+        """What it covers where it stands, without its margin."""
+        if len(self.footprint):
+            return self._bodies(np.array([attitude]))[0]
+        return outline_of({'circle': {'center': attitude[:2], 'radius': self.radius}})
+
     def _bodies(self, driven: Rows) -> NDArray[Any]:
         """Outlines (n,) at attitudes; the centres of a disc."""
         if not len(self.footprint):

@@ -17,7 +17,7 @@ from motion_planner_node.planning.problem import (
     checked_state,
     read_problem,
 )
-from motion_planner_node.planning.proofs import blocked_start, contradiction
+from motion_planner_node.planning.proofs import blocked_start, contradiction, lasting
 from motion_planner_node.planning.stream import Stream
 from motion_planner_node.requests import (
     AdviceAnswer,
@@ -37,6 +37,7 @@ from motion_planner_node.world.model import (
     World,
     WorldObject,
 )
+from motion_planner_node.world.standing import with_standing
 
 #: Robots whose free space is kept.
 MOST_GROUNDS = 8
@@ -54,6 +55,8 @@ class MotionPlanner:
         self._parameters = parameters or Parameters()
         self._scene = Scene(world)
         self._grounds: Cache[Robot, Ground] = Cache(MOST_GROUNDS, self._forget)
+        self._crowded: Cache[tuple[Robot, tuple[tuple[str, Attitude], ...]], Ground]
+        self._crowded = Cache(MOST_GROUNDS, self._forget)
         size = self._parameters.cache_size
         self._texts: Cache[str, Preconditions] = Cache(size)
         self._remarks: Cache[str, tuple[Diagnostic, ...]] = Cache(size)
@@ -95,7 +98,7 @@ class MotionPlanner:
                 return answers.assigned(problem, self._ground, request.alternative)
         except MotionPlannerError as error:
             return answers.refused(error, self.world.revision)
-        ground = self._ground(problem.robot)
+        ground = self._crowded_ground(problem)
         proof = contradiction(problem) or blocked_start(problem, ground)
         if proof:
             return answers.impossible(problem, ground, proof)
@@ -122,7 +125,8 @@ class MotionPlanner:
                 if found:
                     return answers.found(problem, ground, found)
                 if stream.proof:
-                    return answers.impossible(problem, ground, stream.proof)
+                    proof = lasting(problem, stream.proof, self._ground(problem.robot), ground)
+                    return answers.impossible(problem, ground, proof)
                 return answers.exhausted(problem, ground, stream.tried, request.alternative)
         except Stopped:
             return answers.out_of_time(problem, ground, stream.tried)
@@ -149,6 +153,16 @@ class MotionPlanner:
 
     def _ground(self, robot: Robot) -> Ground:
         return self._grounds.get(robot, lambda: Ground(self._scene, robot))
+
+    def _crowded_ground(self, problem: Problem) -> Ground:
+        """The ground on which the robot of ``problem`` drives while all others stand still."""
+        robot, others = problem.robot, problem.others
+        if not others:
+            return self._ground(robot)
+        return self._crowded.get(
+            (robot, tuple(others.items())),
+            lambda: Ground(Scene(with_standing(self.world, others)), robot),
+        )
 
 
 def warm_up() -> None:

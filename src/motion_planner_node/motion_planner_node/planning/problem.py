@@ -36,6 +36,11 @@ class Problem:
         """Where the robot that moves stands."""
         return self.state[self.agent]
 
+    @property
+    def others(self) -> GeometricState:
+        """Where the other robots stand while this one drives."""
+        return {label: place for label, place in self.state.items() if label != self.agent}
+
     def starting_at(self, start: Attitude) -> Problem:
         """The same problem from another attitude of the robot that moves."""
         return replace(self, state=self.moved_to(start))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,6 +69,31 @@ def no_attitude(problem: Problem, ground: Ground) -> Impossible | None:
     if branch_and_prune(problem.program, bounds, room=ground.room).is_empty:
         return _no_free_place(problem, ground)
     return None
+
+
+def lasting(problem: Problem, proof: Impossible, empty: Ground, crowded: Ground) -> Impossible:
+    """A ``proof`` on the ``crowded`` ground, for as many starts as it holds.
+
+    On the ``empty`` one there are no other robots.  What is impossible there as well stays so
+    wherever they go; else it lasts as long as they stand where they do.
+    """
+    if empty is crowded or proof.scope is Scope.THIS_START:
+        return proof
+    hopeful = hopeful_cells(problem, empty)
+    without = walled_off(problem, empty, hopeful) or no_attitude(problem, empty)
+    if without:
+        return without
+    robots = _listed(sorted(problem.others))
+    return replace(
+        proof,
+        scope=Scope.THIS_START,
+        message=f'{proof.message}, as long as {robots} {_stands(problem)} there',
+        advice=f'move {robots} first',
+    )
+
+
+def _stands(problem: Problem) -> str:
+    return 'stands' if len(problem.others) == 1 else 'stand'
 
 
 def _no_free_place(problem: Problem, ground: Ground) -> Impossible:
