@@ -6,6 +6,7 @@ constrain each other, and a rover that samples, calibrates cameras and delivers.
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import shutil
@@ -61,7 +62,7 @@ class Planned:
 
 def plan(namespace: str, mission: str, seed: int, folder: Path) -> Planned:
     """Plan a mission with nodes that run, leave its files in ``folder`` and have them judged."""
-    command = ['geohtn', 'plan', str(FOLDER / mission), '--namespace', namespace]
+    command = ['geohtn', 'plan', str(FOLDER / mission), '--namespace', namespace, '--wait', '60']
     done = subprocess.run(
         [*command, '--seed', str(seed), '--output', str(folder)],
         capture_output=True,
@@ -179,3 +180,20 @@ def _spread(values: Sequence[float], digits: int) -> str:
     if f'{low:.{digits}f}' == f'{high:.{digits}f}':
         return shown
     return f'{shown} ({low:.{digits}f} to {high:.{digits}f})'
+
+
+def main() -> None:
+    """Measure this part alone and print its section."""
+    parser = argparse.ArgumentParser(description='Plan the missions of part 6.')
+    parser.add_argument('--output', type=Path, default=ROOT / 'out' / 'experiments' / 'missions')
+    parser.add_argument('--seeds', type=int, default=FULL.seeds, help='plans of each mission')
+    parser.add_argument('--seed', type=int, default=1, help='seed of the first')
+    arguments = parser.parse_args()
+    part = measure(Sizes(arguments.seeds), arguments.seed, arguments.output)
+    print(part.text)
+    for target in part.targets:
+        print(target)
+
+
+if __name__ == '__main__':
+    main()

@@ -38,16 +38,13 @@ class Judge:
             hiding += cells
         if 'bounds' in world:
             self.bounds = box(*world['bounds'])
+        self.objects: dict[str, dict[str, float]] = world['objects']
         self.robots: dict[str, dict[str, Any]] = world['robots']
         surroundings = {
             'bounds': self.bounds.bounds,
-            'objects': world['objects'],
+            'objects': self.objects,
             'regions': world.get('regions', ()),
-            # Touching an obstacle is no obstruction.
-            'obstacles': [
-                {'polygon': part.buffer(-TOLERANCE, join_style='mitre').exterior.coords}
-                for part in hiding
-            ],
+            'obstacles': [hiding_outline(part) for part in hiding],
         }
         domain = (domain_file or world_file.with_name('domain.lisp')).read_text(encoding='utf-8')
         self.asked = Preconditions(domain, surroundings)
@@ -120,6 +117,11 @@ class Judge:
         return {
             label: pose(robot['start']) for label, robot in self.robots.items() if 'start' in robot
         }
+
+
+def hiding_outline(shape: BaseGeometry) -> dict[str, Any]:
+    """An obstacle as it hides things: touching it is no obstruction."""
+    return {'polygon': list(shape.buffer(-TOLERANCE, join_style='mitre').exterior.coords)}
 
 
 def pose(attitude: dict[str, float]) -> Pose:

@@ -21,7 +21,7 @@ class Preconditions:
     """The geometric preconditions of the operators of a domain, in the paper's form."""
 
     def __init__(self, domain: str, world: Mapping[str, Any]):
-        self._world = world
+        self.world = world
         self._operators: dict[str, tuple[list[str], list[str]]] = {}
         text = re.sub(r';[^\n]*', '', domain)
         for head in re.finditer(r'\(Operator\s+\((!\S+)([^()]*)\)', text):
@@ -45,7 +45,7 @@ class Preconditions:
             label: {'start': dict(zip(('x', 'y', 'heading'), pose, strict=True))}
             for label, pose in attitudes.items()
         }
-        judge = Judge({**self._world, 'robots': robots}, agent)
+        judge = Judge({**self.world, 'robots': robots}, agent)
         for part in ground:
             if _STATEMENT.match(part):
                 continue
