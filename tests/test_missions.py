@@ -72,11 +72,11 @@ def plan(nodes: str, mission: Path, output: Path) -> dict[str, Any]:
 
 
 def test_the_round_sees_everything_and_respects_the_alarm(measured: Measured) -> None:
-    actions = measured.actions('inspection')
+    actions = measured.actions('office')
     assert actions[0][0] == '!leave_charger'
     assert actions[-1][0] == '!charge'
     seen = [action[2] for action in actions if action[0] in {'!read_gauge', '!check_extinguisher'}]
-    problem = (FOLDER / 'inspection' / 'problem.lisp').read_text(encoding='utf-8')
+    problem = (FOLDER / 'office' / 'problem.lisp').read_text(encoding='utf-8')
     assert len(seen) == len(set(seen)) == problem.count('(gauge ') + problem.count('(extinguisher ')
     armed = True
     for name, _robot, thing, *_ in actions:
@@ -131,7 +131,7 @@ def test_cameras_store_and_memory_of_the_sampling_rover(measured: Measured) -> N
 def test_the_checker_would_find_something(measured: Measured) -> None:
     """What the rover's mission has none of: a view that is hidden, a robot in the way."""
     for mission, action, fault in (
-        ('inspection', '!read_gauge', 'visible'),
+        ('office', '!read_gauge', 'visible'),
         ('samples', '!send', 'visible'),
         ('guards', '!check_gate', 'from car'),
     ):
@@ -154,7 +154,7 @@ def test_the_checker_would_find_something(measured: Measured) -> None:
     ('mission', 'file', 'old', 'new', 'words'),
     [
         (
-            'inspection',
+            'office',
             'world.yaml',
             '  - name: plant',
             '  - {name: crate, polygon: [[18.5, 5], [20, 5], [20, 5.6], [18.5, 5.6]]}\n  - name: plant',
@@ -180,7 +180,7 @@ def test_what_is_broken_is_told(
 def test_the_shipped_map_is_the_one_that_the_script_draws(tmp_path: Path) -> None:
     draw_office_floor().write(tmp_path, 'office')
     for name in ('office.png', 'office.yaml'):
-        assert (tmp_path / name).read_bytes() == (FOLDER / 'inspection' / name).read_bytes()
+        assert (tmp_path / name).read_bytes() == (FOLDER / 'office' / name).read_bytes()
 
 
 def test_all_missions_are_installed() -> None:

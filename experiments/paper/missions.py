@@ -23,7 +23,7 @@ from tests.support.checker import Judge
 
 #: Folder name and what is shown by it.
 MISSIONS = {
-    'inspection': 'lines of sight in an office map, a differential drive',
+    'office': 'lines of sight in an office map, a differential drive',
     'guards': 'two robots, a car and an omnidirectional one, that keep each other in view',
     'samples': 'cameras to calibrate, a store of two compartments, a car that reverses',
 }

@@ -1,4 +1,4 @@
-"""Draw the map of the mission ``inspection``: one floor of an office building, 24 m by 14 m.
+"""Draw the map of the mission ``office``: one floor of an office building, 24 m by 14 m.
 
 Run it with ``python -m experiments.pictures.office_map``; it writes ``office.png`` and
 ``office.yaml``, in the format of map_server, into the mission's folder.
@@ -13,7 +13,7 @@ import numpy as np
 from experiments.motion.maps import FREE, Drawing
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-FOLDER = ROOT / 'src' / 'interface_node' / 'missions' / 'inspection'
+FOLDER = ROOT / 'src' / 'interface_node' / 'missions' / 'office'
 WIDTH, HEIGHT = 24.0, 14.0
 WALL, DOOR = 0.15, 1.1
 #: Where the corridor's walls are, its middle lines [m].

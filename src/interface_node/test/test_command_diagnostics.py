@@ -75,6 +75,7 @@ def test_diagnostics_are_written_as_compilers_do() -> None:
         [
             Diagnostic('it is wrong', '/abs/domain.lisp', 2, 2, 'wrong'),
             Diagnostic('odd', '/abs/other.lisp', 4, 1, warning=True),
+            Diagnostic('no such picture', '/abs/office.yaml', 1, 8),
             Diagnostic('no place'),
         ],
         [source],
@@ -84,5 +85,6 @@ def test_diagnostics_are_written_as_compilers_do() -> None:
         '    (wrong here)\n'
         '     ^~~~~\n'
         '/abs/other.lisp:4:1: warning: odd\n'
+        '/abs/office.yaml:1:8: error: no such picture\n'
         'error: no place\n'
     )

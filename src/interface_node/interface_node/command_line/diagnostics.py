@@ -55,7 +55,7 @@ def write_diagnostics(
         severity, style = ('warning:', 'yellow') if diagnostic.warning else ('error:', 'red')
         message = f'{console.styled_err(severity, style)} {diagnostic.message}'
         console.note(f'{console.styled_err(where + ":", "bold")} {message}' if where else message)
-        for line in excerpt(diagnostic, source.text if source else ''):
+        for line in excerpt(diagnostic, source.text) if source else ():
             console.note(f'    {line}')
 
 

@@ -1,6 +1,6 @@
 ;; The evening round: four gauges and five extinguishers.
 
-(defproblem evening-round inspection
+(defproblem evening-round office
 
 ;; initial state: labels are spelt as in world.yaml
 ((robot inspector)(charging inspector)

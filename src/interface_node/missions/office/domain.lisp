@@ -2,7 +2,7 @@
 ;; front, and checks that fire extinguishers hang where they should, for which any clear view will do.
 ;; A room with an alarm is disarmed first, and armed again when everything in it has been seen.
 
-(defdomain inspection (
+(defdomain office (
 
 ;; The robot stands on its charger.  setProperty assigns an attitude, so nothing is driven here.
 (Operator (!leave_charger ?r ?charger)
