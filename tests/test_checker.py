@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
+import numpy as np
 import pytest
 import shapely
+from PIL import Image
 
+from tests.support.occupancy import occupied_boxes
+from tests.support.preconditions import Preconditions
 from tests.support.vehicle import Pose, Vehicle, motion_faults
 
 CAR = {'model': 'car', 'wheelbase': 2.0, 'max_steering_angle': 0.5, 'radius': 1.0}
@@ -89,3 +94,57 @@ def test_an_end_that_is_elsewhere_is_refused() -> None:
     for end in ((12.00001, 5, 0), (12, 4.99999, 0), (12, 5, 1e-5)):
         assert any('not to' in fault for fault in faults(CAR, (5, 5, 0), [[0.0, 7.0]], end))
     assert faults(CAR, (5, 5, 0), [[0.0, 7.0]], (12, 5, math.tau)) == []
+
+
+DOMAIN = """
+(defdomain d (
+(Operator (!watch ?r ?o ?z)   ; comments (with parentheses
+  ((at ?r)(thing ?o))
+  ((agent ?r)(object ?o)(region ?z)
+   (distance(?r, ?o) <= 5)
+   (visible(?r, ?o))
+   (angle_between(bearing(?r, ?o), ?o.faces + pi) <= deg(10))
+   (inside(?r, ?z)))
+  ((seen ?o)))
+))
+"""
+YARD = {
+    'bounds': (0, 0, 20, 20),
+    'objects': {'dial': {'x': 10, 'y': 10, 'faces': math.pi}},
+    'regions': [{'name': 'bay', 'polygon': [[0, 0], [8, 0], [8, 20], [0, 20]]}],
+    'obstacles': [{'polygon': [[7, 0], [7.5, 0], [7.5, 9], [7, 9]]}],
+}
+
+
+@pytest.mark.parametrize(
+    ('place', 'missed'),
+    [
+        ((6, 10, 0), []),
+        ((4.9, 10, 0), ['distance']),
+        ((8.1, 10, 0), ['inside']),
+        ((6, 11.5, 0), ['angle_between']),
+        ((6, 8, 0), ['visible', 'angle_between']),
+    ],
+)
+def test_preconditions_are_read_from_the_domain(place: Pose, missed: list[str]) -> None:
+    asked = Preconditions(DOMAIN, YARD)
+    found = list(asked.faults(['!watch', 'robo', 'dial', 'bay'], 'robo', {'robo': place}))
+    assert [fault.split('(')[0] for fault in found] == missed
+
+
+def test_another_agent_than_the_stated_one_must_not_move() -> None:
+    asked = Preconditions(DOMAIN, YARD)
+    assert list(asked.faults(['!watch', 'robo', 'dial', 'bay'], 'other', {'other': (6, 10, 0)}))
+
+
+def test_boxes_cover_just_the_occupied_cells_of_a_map(tmp_path: Path) -> None:
+    random = np.random.default_rng(4)
+    blocked = random.random((9, 13)) < 0.4
+    Image.fromarray(np.where(blocked, 0, 254).astype(np.uint8)[::-1]).save(tmp_path / 'm.png')
+    fields = 'image: m.png\nresolution: 0.5\norigin: [1.0, -2.0, 0.0]\nnegate: 0\n'
+    (tmp_path / 'm.yaml').write_text(fields + 'free_thresh: 0.2\n', encoding='utf-8')
+    extent, boxes = occupied_boxes(tmp_path / 'm.yaml')
+    assert extent.bounds == (1.0, -2.0, 7.5, 2.5)
+    for row, column in np.ndindex(blocked.shape):
+        center = shapely.Point(1.25 + 0.5 * column, -1.75 + 0.5 * row)
+        assert sum(part.contains(center) for part in boxes) == int(blocked[row, column])

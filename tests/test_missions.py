@@ -65,7 +65,18 @@ def test_the_same_seed_gives_the_same_plan(
 
 
 def plan(nodes: str, mission: Path, output: Path) -> dict[str, Any]:
-    done = geohtn('plan', mission, '--namespace', nodes, '--wait', '60', '--seed', str(SEED), '--output', output)
+    done = geohtn(
+        'plan',
+        mission,
+        '--namespace',
+        nodes,
+        '--wait',
+        '60',
+        '--seed',
+        str(SEED),
+        '--output',
+        output,
+    )
     assert (output / 'plan.json').exists(), done.stderr
     read: dict[str, Any] = json.loads((output / 'plan.json').read_text(encoding='utf-8'))
     return read
@@ -172,7 +183,9 @@ def test_what_is_broken_is_told(
     text = (folder / file).read_text(encoding='utf-8')
     assert old in text
     (folder / file).write_text(text.replace(old, new), encoding='utf-8')
-    done = geohtn('plan', folder, '--namespace', nodes, '--wait', '60', '--output', tmp_path / 'out')
+    done = geohtn(
+        'plan', folder, '--namespace', nodes, '--wait', '60', '--output', tmp_path / 'out'
+    )
     assert done.returncode == 2, done.stderr
     assert all(word in done.stdout + done.stderr for word in words)
 
