@@ -10,7 +10,7 @@ from itertools import count
 from typing import Any
 from uuid import uuid4
 
-from geohtn_msgs.msg import AdviceRequest, GeometricRequest
+from geohtn_msgs.msg import GeometricRequest
 from geohtn_msgs.srv import Advise, CancelRequest, CheckPreconditions, SatisfyPreconditions
 from rclpy.client import Client
 from rclpy.context import Context
@@ -19,12 +19,13 @@ from rclpy.node import Node
 
 from task_planner_node.conversions import (
     advice_from_message,
+    advice_to_message,
     answer_from_message,
     diagnostic_from_message,
     states_from_token,
 )
 from task_planner_node.errors import Cancelled, GeometryUnavailable, LimitReached
-from task_planner_node.oracle import Advice, Answer, Query, TextCheck, Token
+from task_planner_node.oracle import Advice, AdviceQuery, Answer, Query, TextCheck
 from task_planner_node.parameters import Parameters
 
 # [s] between two looks at the mission, and without the service until it counts as gone.
@@ -125,13 +126,16 @@ class RemoteOracle:
     def satisfy(self, query: Query) -> Answer:
         """Oracle.satisfy."""
         response = self._call(self.client.satisfy, self._request(query))
-        return answer_from_message(response.answer)
+        return answer_from_message(response.answer, query.preferred)
 
     def satisfy_together(self, queries: Sequence[Query]) -> Sequence[Answer]:
         """BatchOracle.satisfy_together: all requests are in flight at once, as replicas of the node can use."""
         requests = [self._request(query) for query in queries]
         responses = self._call_together(self.client.satisfy, requests)
-        return [answer_from_message(response.answer) for response in responses]
+        return [
+            answer_from_message(response.answer, query.preferred)
+            for response, query in zip(responses, queries, strict=True)
+        ]
 
     def _request(self, query: Query) -> SatisfyPreconditions.Request:
         request = GeometricRequest(
@@ -145,20 +149,17 @@ class RemoteOracle:
             world_revision=self.world_revision,
             seed=self.seed,
             time_budget=self.parameters.request_time_budget,
+            preferred_end=[] if query.preferred is None else states_from_token(query.preferred),
         )
         return SatisfyPreconditions.Request(request=request)
 
-    def advise(self, start: Token, preconditions: Sequence[str]) -> Advice:
+    def advise(self, query: AdviceQuery) -> Advice:
         """Oracle.advise."""
-        request = AdviceRequest(
-            request_id=self._request_id(),
-            mission=self.mission,
-            start=states_from_token(start),
-            preconditions=list(preconditions),
-            purpose=AdviceRequest.NEAREST_FIRST,
-            world_revision=self.world_revision,
-            seed=self.seed,
-        )
+        request = advice_to_message(query)
+        request.request_id = self._request_id()
+        request.mission = self.mission
+        request.world_revision = self.world_revision
+        request.seed = self.seed
         response = self._call(self.client.advise, Advise.Request(request=request))
         return advice_from_message(response.answer)
 
