@@ -93,7 +93,10 @@ class Improvement:
         ]
         order, taken = itinerary.with_opportunities(found, texts)
         if taken and self._try(itinerary, order):
-            self._statistics.opportunities += taken
+            wanted = [itinerary.motions[index].preconditions for index, _ in order]
+            better = self._itinerary()
+            if better and [motion.preconditions for motion in better.motions] == wanted:
+                self._statistics.opportunities += taken
 
     def _reorder(self, effort: int) -> None:
         """Make the stops in a shorter order, with attitudes to suit."""
