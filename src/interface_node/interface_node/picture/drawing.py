@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from interface_node.driving import sample
 from interface_node.footprint import robot_outline
 from interface_node.picture.labels import place_labels
+from interface_node.picture.progress import draw_progress
 from interface_node.picture.terrain import (
     OBSTACLE,
     OBSTACLE_EDGE,
@@ -73,6 +74,7 @@ def draw(plan: Plan) -> Figure:
         spine.set_color(OBSTACLE_EDGE)
     axes.set_title(_title(plan), loc='left', fontsize=13, color=INK, parse_math=False)
 
+    draw_progress(axes, plan)
     draw_regions(axes, world)
     draw_map(axes, world)
     draw_obstacles(axes, world)
