@@ -55,6 +55,15 @@ class Scope(IntEnum):
     ANY_START = 2
 
 
+class Purpose(IntEnum):
+    """What advice is for: the same numbers as in geohtn_msgs/AdviceRequest."""
+
+    NEAREST_FIRST = 0
+    SHORTEST_TOUR = 1
+    FIXED_ORDER = 2
+    OPPORTUNITIES = 3
+
+
 class AttemptResult(IntEnum):
     """What came of one destination."""
 

@@ -14,6 +14,7 @@ from motion_planner_node.map_conversions import map_to_msg
 from motion_planner_node.motion_conversions import (
     agent_state_to_msg,
     attitude_from_msg,
+    motion_from_msg,
     motion_to_msg,
     robot_to_msg,
 )
@@ -29,7 +30,7 @@ from motion_planner_node.robots.motion import Attitude, GeometricState
 from motion_planner_node.world.model import Obstacle, Polygon, Region, World
 
 
-def state_from_msg(states: Sequence[msg.AgentState]) -> GeometricState:
+def state_from_msg(states: Sequence[msg.AgentState], what: str = 'start') -> GeometricState:
     """Attitudes by label; a heading outside (-pi, pi] is wrapped, one inside is left bit for bit.
 
     :raises MotionPlannerError: INVALID_START when a number is not finite or an agent comes twice
@@ -38,9 +39,9 @@ def state_from_msg(states: Sequence[msg.AgentState]) -> GeometricState:
     for state in states:
         if state.agent in result:
             raise MotionPlannerError(
-                Code.INVALID_START, f'the start names agent {state.agent} twice'
+                Code.INVALID_START, f'the {what} names agent {state.agent} twice'
             )
-        result[state.agent] = attitude_from_msg(state)
+        result[state.agent] = attitude_from_msg(state, what)
     return result
 
 
@@ -66,20 +67,15 @@ def request_from_msg(request: msg.GeometricRequest) -> GeometricRequest:
         request_id=request.request_id,
         mode=request.mode,
         planner=request.planner,
+        preferred_end=state_from_msg(request.preferred_end, 'preferred end'),
     )
 
 
 def advice_request_from_msg(request: msg.AdviceRequest) -> AdviceRequest:
     """The request for advice.
 
-    :raises MotionPlannerError: INVALID_START as in `state_from_msg`; UNSUPPORTED for a purpose
-        that is not NEAREST_FIRST
+    :raises MotionPlannerError: INVALID_START as in `state_from_msg`
     """
-    if request.purpose != msg.AdviceRequest.NEAREST_FIRST:
-        raise MotionPlannerError(
-            Code.UNSUPPORTED,
-            f'advice for purpose {request.purpose} is not supported; use NEAREST_FIRST (0)',
-        )
     return AdviceRequest(
         preconditions=tuple(request.preconditions),
         start=state_from_msg(request.start),
@@ -87,6 +83,15 @@ def advice_request_from_msg(request: msg.AdviceRequest) -> AdviceRequest:
         seed=request.seed,
         request_id=request.request_id,
         pairwise=request.pairwise,
+        purpose=request.purpose,
+        before=tuple(request.before),
+        after=tuple(request.after),
+        ends=tuple(
+            (end.agent, attitude_from_msg(end, 'end')) if end.agent else None
+            for end in request.ends
+        ),
+        effort=request.effort,
+        motions=tuple(motion_from_msg(motion) for motion in request.motions),
     )
 
 
@@ -145,6 +150,17 @@ def advice_to_msg(
         order=[int(index) for index in answer.order],
         pairwise_lower_bounds=list(answer.pairwise_lower_bounds),
         pairwise_estimates=list(answer.pairwise_estimates),
+        ends=[agent_state_to_msg(*end) if end else msg.AgentState() for end in answer.ends],
+        tour_length=float(answer.tour_length),
+        opportunities=[
+            msg.Opportunity(
+                candidate=item.candidate,
+                motion=item.motion,
+                distance=float(item.distance),
+                end=agent_state_to_msg(*item.end),
+            )
+            for item in answer.opportunities
+        ],
         time_spent=float(time_spent),
     )
 

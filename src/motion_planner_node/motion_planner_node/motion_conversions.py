@@ -21,8 +21,10 @@ from motion_planner_node.robots.robot import Robot
 FRAME = 'map'
 
 
-def attitude_from_msg(state: msg.AgentState) -> Attitude:
+def attitude_from_msg(state: msg.AgentState, what: str = 'start') -> Attitude:
     """The attitude; a heading outside (-pi, pi] is wrapped, one inside is left bit for bit.
+
+    ``what`` it is of its agent, for errors.
 
     :raises MotionPlannerError: INVALID_START when a number is not finite
     """
@@ -30,7 +32,7 @@ def attitude_from_msg(state: msg.AgentState) -> Attitude:
         value = getattr(state, name)
         if not isfinite(value):
             raise MotionPlannerError(
-                Code.INVALID_START, f'the start of {state.agent} has {name} {value}'
+                Code.INVALID_START, f'the {what} of {state.agent} has {name} {value}'
             )
     heading = state.heading if -pi < state.heading <= pi else remainder(state.heading, tau)
     return Attitude(state.x, state.y, pi if heading == -pi else heading)

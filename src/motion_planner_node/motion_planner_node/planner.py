@@ -15,6 +15,7 @@ from motion_planner_node.planning.problem import (
     Problem,
     check_request,
     checked_state,
+    preferred_end,
     read_problem,
 )
 from motion_planner_node.planning.proofs import blocked_start, contradiction
@@ -93,28 +94,31 @@ class MotionPlanner:
             self._programs.get(text, lambda: problem.program)
             if problem.program.assigns:
                 return answers.assigned(problem, self._ground, request.alternative)
+            preferred = preferred_end(problem, request)
         except MotionPlannerError as error:
             return answers.refused(error, self.world.revision)
         ground = self._ground(problem.robot)
         proof = contradiction(problem) or blocked_start(problem, ground)
         if proof:
             return answers.impossible(problem, ground, proof)
-        return self._search(request, problem, ground, should_stop)
+        return self._search(request, problem, preferred, ground, should_stop)
 
     def _search(
         self,
         request: GeometricRequest,
         problem: Problem,
+        preferred: Attitude | None,
         ground: Ground,
         should_stop: ShouldStop,
     ) -> GeometricAnswer:
         state = tuple(problem.state.items())
         mode = request.mode or self._parameters.mode
         planner = request.planner or self._parameters.planner
-        key = (request.preconditions, problem.agent, state, request.seed, mode, planner)
+        key = (request.preconditions, problem.agent, state, request.seed, mode, planner, preferred)
         stream_of = PaperStream if mode == PAPER_MODE else Stream
         stream = self._streams.get(
-            key, lambda: stream_of(problem, ground, self._parameters, request.seed, planner)
+            key,
+            lambda: stream_of(problem, ground, self._parameters, request.seed, planner, preferred),
         )
         try:
             with problem.program.broken_off_by(should_stop):

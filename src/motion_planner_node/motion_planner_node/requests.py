@@ -5,9 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from math import inf
 
-from motion_planner_node.codes import AttemptResult, Code, Scope, Status
+from motion_planner_node.codes import AttemptResult, Code, Purpose, Scope, Status
 from motion_planner_node.errors import Diagnostic
 from motion_planner_node.robots.motion import Attitude, GeometricState, Motion
+
+
+#: Label of a robot, and where it stands in the end.
+End = tuple[str, Attitude]
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,7 +19,8 @@ class GeometricRequest:
     """Can these preconditions be met from this state, and how does the robot get there?
 
     ``mode`` is how destinations are computed and ``planner`` how paths are planned, as the
-    parameters of these names; empty for their values.
+    parameters of these names; empty for their values.  ``preferred_end`` is where the robot that
+    moves ends when that meets the preconditions and can be driven to; empty for no wish.
     """
 
     preconditions: str
@@ -29,6 +34,7 @@ class GeometricRequest:
     request_id: str = ''
     mode: str = ''
     planner: str = ''
+    preferred_end: GeometricState = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +95,10 @@ class GeometricAnswer:
 class AdviceRequest:
     """What would each of these ground precondition texts cost from ``start``?
 
-    With ``pairwise`` also what each would cost after each other one.
+    With ``pairwise`` also what each would cost after each other one.  For tours, candidate
+    ``before[k]`` has to come before candidate ``after[k]``, ``ends`` are attitudes to improve on,
+    one for each candidate or none at all, and ``effort`` is how much is tried.  Opportunities are
+    looked for along ``motions``, which are driven one after the other.
     """
 
     preconditions: tuple[str, ...]
@@ -98,6 +107,22 @@ class AdviceRequest:
     seed: int = 0
     request_id: str = ''
     pairwise: bool = False
+    purpose: int = Purpose.NEAREST_FIRST
+    before: tuple[int, ...] = ()
+    after: tuple[int, ...] = ()
+    ends: tuple[End | None, ...] = ()
+    effort: int = 0
+    motions: tuple[Motion, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Opportunity:
+    """A ``candidate`` is met at ``end``, ``distance`` [m] along the motion number ``motion``."""
+
+    candidate: int
+    motion: int
+    distance: float
+    end: End
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,6 +143,8 @@ class AdviceAnswer:
     """Advice on every candidate, and the order in which to try them, impossible ones last.
 
     The pairwise costs [m] are matrices row by row, empty unless asked for; see `advice.pairwise`.
+    Tours tell an end for each candidate, None where nothing is known, and the length [m] expected
+    of the whole tour, infinite where no way is known.
     """
 
     candidates: tuple[CandidateAdvice, ...]
@@ -125,3 +152,6 @@ class AdviceAnswer:
     world_revision: str = ''
     pairwise_lower_bounds: tuple[float, ...] = ()
     pairwise_estimates: tuple[float, ...] = ()
+    ends: tuple[End | None, ...] = ()
+    tour_length: float = 0.0
+    opportunities: tuple[Opportunity, ...] = ()

@@ -74,7 +74,7 @@ def read_problem(
 def check_request(world: World, request: GeometricRequest) -> None:
     """Refuse what is wrong with a request apart from its preconditions.
 
-    :raises MotionPlannerError: WORLD_CHANGED, UNSUPPORTED, or as `checked_state`
+    :raises MotionPlannerError: WORLD_CHANGED, UNSUPPORTED, or as `check_attitudes`
     """
     check_revision(world, request.world_revision)
     if request.behaviour.strip():
@@ -87,11 +87,27 @@ def check_request(world: World, request: GeometricRequest) -> None:
         )
     if request.planner:
         planner_named(request.planner)
+    check_attitudes(world, request.preferred_end, 'preferred end')
     if not 0.0 <= request.time_budget < float('inf'):
         raise MotionPlannerError(
             Code.UNSUPPORTED,
             f'a time budget of {request.time_budget} s makes no sense: give seconds, or 0',
         )
+
+
+def preferred_end(problem: Problem, request: GeometricRequest) -> Attitude | None:
+    """Where the robot that moves should end, if anybody cares.
+
+    :raises MotionPlannerError: UNKNOWN_AGENT when the end is another robot's
+    """
+    for agent, attitude in request.preferred_end.items():
+        if agent != problem.agent:
+            raise MotionPlannerError(
+                Code.UNKNOWN_AGENT,
+                f'the preferred end is one of {agent}, but {problem.agent} is what moves',
+            )
+        return positive_zeros(attitude)
+    return None
 
 
 def check_revision(world: World, revision: str) -> None:
@@ -116,20 +132,33 @@ def checked_state(world: World, state: GeometricState) -> dict[str, Attitude]:
     :raises MotionPlannerError: UNKNOWN_AGENT, or INVALID_START for a number that is not finite
     """
     known = {label: car.start for label, car in world.robots.items() if car.start} | dict(state)
-    result = {}
-    for agent, attitude in sorted(known.items()):
+    check_attitudes(world, known, 'start')
+    return {agent: positive_zeros(attitude) for agent, attitude in sorted(known.items())}
+
+
+def positive_zeros(attitude: Attitude) -> Attitude:
+    """The same attitude without negative zeros, so that equal ones have equal bits."""
+    return Attitude(attitude.x + 0.0, attitude.y + 0.0, attitude.heading + 0.0)
+
+
+def check_attitudes(world: World, state: GeometricState, what: str) -> None:
+    """Refuse attitudes of agents that ``world`` lacks, or with numbers that are not finite.
+
+    ``what`` they are of their agents, for errors.
+
+    :raises MotionPlannerError: UNKNOWN_AGENT or INVALID_START
+    """
+    for agent, attitude in sorted(state.items()):
         if agent not in world.robots:
             raise MotionPlannerError(
                 Code.UNKNOWN_AGENT,
-                f'the start names agent {agent}; the world has {_listed(sorted(world.robots))}',
+                f'the {what} names agent {agent}; the world has {_listed(sorted(world.robots))}',
             )
         numbers = (attitude.x, attitude.y, attitude.heading)
         if not all(isfinite(number) for number in numbers):
             raise MotionPlannerError(
-                Code.INVALID_START, f'the start of {agent} is not finite: {numbers}'
+                Code.INVALID_START, f'the {what} of {agent} is not finite: {numbers}'
             )
-        result[agent] = Attitude(*(float(number) + 0.0 for number in numbers))
-    return result
 
 
 def _listed(labels: Sequence[str]) -> str:

@@ -62,7 +62,8 @@ class Candidate:
 class Stream:
     """Motions to really different destinations, each as short as can be found.
 
-    Those that come after the first are on another side or at another distance, as far as there is
+    The first is to the ``preferred`` end, where there is one that will do.  Those that come after
+    the first are on another side or at another distance, as far as there is
     any; when there is no more, they may be nearer to those before them.
 
     What comes k-th depends on the problem, the seed and the parameters alone: not on who asked
@@ -76,8 +77,10 @@ class Stream:
         parameters: Parameters,
         seed: int,
         planner: str = DEFAULT_PLANNER,
+        preferred: Attitude | None = None,
     ):
         self._planner = planner
+        self._preferred = preferred
         self._budget = PathBudget(
             attitudes=parameters.path_attitudes,
             iterations=parameters.path_iterations,
@@ -100,7 +103,7 @@ class Stream:
         self._seen: list[Attitude] = []
         self._failures = 0
         self.proof: Impossible | None = None
-        self._more = self._generate()
+        self._more = self._preferred_first()
         self._broken = False
 
     def find(self, alternative: int, should_stop: Callable[[], bool]) -> Found | None:
@@ -124,8 +127,30 @@ class Stream:
         self._broken = False
         return self._found[alternative] if alternative < len(self._found) else None
 
+    def _preferred_first(self) -> Iterator[Found]:
+        way = self._to_preferred()
+        # What was tried on the way leaves no trace: all else is as without a preferred end.
+        self._candidates = []
+        self.tried = Tried(self._problem.agent)
+        self._failures = 0
+        if way:
+            yield self._answer(way)
+        yield from self._generate()
+
+    def _to_preferred(self) -> Way | None:
+        """A motion to exactly the preferred end, where that will do and can be driven to."""
+        end = self._preferred
+        if end is None or self._problem.program.unmet(end):
+            return None
+        rows = np.array([[end.x, end.y, end.heading]])
+        if not (self._ground.is_free(rows)[0] and self._ground.part_of(end) == self._here):
+            return None
+        self._candidates = [Candidate(0, end)]
+        return self._plan(self._candidates, None)
+
     def _generate(self) -> Iterator[Found]:
-        if not self._problem.program.unmet(self._problem.start):
+        start = self._problem.start
+        if self._is_new(start) and not self._problem.program.unmet(start):
             # Nothing is nearer than here; other destinations are for those who ask for them.
             stay = Motion(self._problem.agent, self._problem.start)
             yield self._answer((stay, self._problem.start))
