@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from itertools import count
+from math import inf
 from typing import Any
 from uuid import uuid4
 
@@ -160,33 +161,40 @@ class RemoteOracle:
         request.mission = self.mission
         request.world_revision = self.world_revision
         request.seed = self.seed
-        response = self._call(self.client.advise, Advise.Request(request=request))
+        # How much work it is only the motion planner knows; it tells that it is alive meanwhile.
+        response = self._call(self.client.advise, Advise.Request(request=request), inf)
         return advice_from_message(response.answer)
 
     def _request_id(self) -> str:
         """An id that no other request has, for it may have to be cancelled."""
         return f'{self.mission}:{self._name}:{next(self._numbers)}'
 
-    def _call(self, client: Client, request: Any) -> Any:
-        return self._call_together(client, [request])[0]
+    def _call(self, client: Client, request: Any, budget: float | None = None) -> Any:
+        return self._call_together(client, [request], budget)[0]
 
-    def _call_together(self, client: Client, requests: Sequence[Any]) -> list[Any]:
-        """The responses; what is not waited for any more is cancelled."""
+    def _call_together(
+        self, client: Client, requests: Sequence[Any], budget: float | None = None
+    ) -> list[Any]:
+        """The responses; what is not waited for any more is cancelled.
+
+        ``budget`` [s] is what the motion planner may take for each, which it may answer one after the other.
+        """
         self._wait_for_service(client)
+        budget = self.parameters.request_time_budget if budget is None else budget
+        patience = len(requests) * budget + self.parameters.service_timeout
         futures = [client.call_async(request) for request in requests]
         try:
-            return [self._await(client, future, len(requests)) for future in futures]
+            return [self._await(client, future, patience) for future in futures]
         finally:
             for request, future in zip(requests, futures, strict=True):
                 if not future.done():
                     client.remove_pending_request(future)
                     self._cancel(request)
 
-    def _await(self, client: Client, future: Any, waiting: int) -> Any:
-        """The response, of ``waiting`` ones that the motion planner may give one after the other."""
+    def _await(self, client: Client, future: Any, patience: float) -> Any:
+        """The response, within ``patience`` [s]."""
         done = threading.Event()
         future.add_done_callback(lambda _: done.set())
-        patience = waiting * self.parameters.request_time_budget + self.parameters.service_timeout
         began = time.monotonic()
         lost = began
         pulse = Pulse(self.client.check)

@@ -5,13 +5,23 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from task_planner_node.oracle import Answer, Purpose, Query, Status
+from task_planner_node.oracle import (
+    Advice,
+    AdviceQuery,
+    Answer,
+    CandidateAdvice,
+    Purpose,
+    Query,
+    Status,
+)
 from task_planner_node.outcomes import Options, Outcome, Result
+from task_planner_node.search.guidance import leading_request
 from task_planner_node.search.tours import Following, Stop, Tour
 from tests.support.sites import Point, Sites, label_of, shortest_way
 
@@ -148,6 +158,31 @@ def test_the_same_goal_may_be_wanted_twice(plan: Planned, guidance: str) -> None
     result = plan(DOMAIN, unordered(tasks, facts), Sites(ZIGZAG), options)
     assert sorted(seen(result)) == ['a', 'a', 'b']
     assert result.plans[0].length == 4.0
+
+
+def test_following_a_tour_takes_little_work(plan: Planned, monkeypatch: pytest.MonkeyPatch) -> None:
+    count = 60
+    guesses = []
+
+    def guess(domain: Any, state: Any, network: Any, where: Any) -> Any:
+        guesses.append(network)
+        return leading_request(domain, state, network, where)
+
+    class Row(Sites):
+        """Points in a row, the tour of which is no work to find."""
+
+        def advise(self, query: AdviceQuery) -> Advice:
+            self.advised.append(query)
+            ends = tuple(self.points[label_of(text)][0] for text in query.preconditions)
+            order = tuple(sorted(range(len(ends)), key=lambda i: ends[i]))
+            return Advice((CandidateAdvice(),) * len(ends), order, ends=ends)
+
+    monkeypatch.setattr('task_planner_node.search.candidates.leading_request', guess)
+    world = Row({f'p{i}': ((float(i * 7 % count), 0.0),) for i in range(count)})
+    result = plan(DOMAIN, unordered([f'(see {label})' for label in world.points]), world)
+    assert result.plans[0].length == count - 1
+    assert len(guesses) <= 2 * count
+    assert world.count(Purpose.SHORTEST_TOUR) == 1
 
 
 coordinates = st.tuples(st.integers(-9, 9).map(float), st.integers(-9, 9).map(float))
