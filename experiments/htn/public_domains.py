@@ -19,7 +19,7 @@ from task_planner_node.errors import Diagnostic, MissionError, Severity
 from task_planner_node.language import check_mission
 from task_planner_node.language.model import show
 from task_planner_node.mission import MissionText, read_mission
-from task_planner_node.oracle import Advice, Answer, Query, TextCheck, Token
+from task_planner_node.oracle import Advice, AdviceQuery, Answer, Query, TextCheck
 from task_planner_node.outcomes import Options, Outcome
 from task_planner_node.planner import Planner
 
@@ -35,9 +35,9 @@ class NoMotionPlanner:
         """Never asked."""
         raise LookupError(query)
 
-    def advise(self, start: Token, preconditions: object) -> Advice:
+    def advise(self, query: AdviceQuery) -> Advice:
         """Never asked."""
-        raise LookupError((start, preconditions))
+        raise LookupError(query)
 
 
 def missions(folder: Path) -> Iterator[tuple[Path, Path]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from time import monotonic
 
@@ -23,6 +23,7 @@ from geohtn_msgs.srv import SetWorld
 from interface_node.continuity import faults
 from interface_node.conversions import diagnostic_to_message, plan_from_messages
 from interface_node.display_conversions import header
+from interface_node.history import History
 from interface_node.outputs_node import TREES, Outputs
 from interface_node.parameters import Parameters
 from interface_node.peers_node import Peers, Unavailable
@@ -67,6 +68,7 @@ class Mission:
         self._steps: list[Step] = []
         self._statistics = PlanningStatistics()
         self._progress = PlanningProgress(best_length=inf, best_cost=inf)
+        self._history = History()
 
     def run(self) -> PlanMission.Result:
         """Plan, publish and record the mission, and keep telling that it is being worked on."""
@@ -136,13 +138,15 @@ class Mission:
             accept_timeout=parameters.peer_timeout,
             cancel_timeout=parameters.cancel_timeout,
             should_stop=around.should_stop,
-            on_feedback=lambda feedback: self._forward(feedback.progress),
+            on_feedback=lambda feedback: self._hear(feedback.progress),
         )
         self._statistics = result.statistics
         outcome: Outcome = result.outcome
         outcome.diagnostics = [*accepted.diagnostics, *outcome.diagnostics]
         if outcome.value == Outcome.SOLVED:
             self._steps = result.steps
+            # Word of the last plan may come after the result.
+            self._history.note(monotonic() - self._started, self._message().length)
         return outcome
 
     def _finish(self, outcome: Outcome) -> PlanMission.Result:
@@ -203,13 +207,14 @@ class Mission:
         )
 
     def _plain(self, message: GlobalPlan, outcome: Outcome) -> Plan:
-        return plan_from_messages(
+        plan = plan_from_messages(
             message,
             outcome,
             self._statistics,
             world_path=self._goal.world.path,
             seed=self._goal.options.seed,
         )
+        return replace(plan, improvements=tuple(self._history.improvements))
 
     def _display(self, message: GlobalPlan | None, outcome: Outcome) -> None:
         plan = self._plain(message or self._message(), outcome)
@@ -224,6 +229,12 @@ class Mission:
     def _report(self, phase: str) -> None:
         self._progress.phase = phase
         self._forward(self._progress)
+
+    def _hear(self, progress: PlanningProgress) -> None:
+        """Pass on how the task planner is getting on, and record each better plan."""
+        self._forward(progress)
+        if self._history.note(progress.elapsed, progress.best_length):
+            self._record('/mission/progress', progress)
 
     def _forward(self, progress: PlanningProgress) -> None:
         progress.elapsed = monotonic() - self._started

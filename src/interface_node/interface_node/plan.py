@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from interface_node.history import Improvement
+
 
 @dataclass(frozen=True, slots=True)
 class Attitude:
@@ -171,6 +173,7 @@ class Plan:
     seed: int = 0
     planning_time: float = 0.0
     statistics: Mapping[str, float] = field(default_factory=dict)
+    improvements: tuple[Improvement, ...] = ()
 
     @property
     def length(self) -> float:

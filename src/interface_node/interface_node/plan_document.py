@@ -37,6 +37,10 @@ def plan_document(plan: Plan) -> dict[str, Any]:
         'length': number(plan.length),
         'duration': number(plan.duration),
         'planning_time': number(plan.planning_time),
+        'improvements': [
+            {'elapsed': number(told.elapsed), 'length': number(told.length)}
+            for told in plan.improvements
+        ],
         'statistics': _statistics(plan.statistics),
     }
 

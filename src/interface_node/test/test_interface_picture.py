@@ -14,6 +14,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.image import imread
 from matplotlib.patches import Circle, Polygon
 
+from interface_node.history import Improvement
 from interface_node.picture import draw, write_picture
 from interface_node.picture.labels import place_labels
 from interface_node.plan import Obstacle, Occupancy, Plan, World
@@ -45,6 +46,18 @@ def test_everything_is_drawn(sample_plan: Plan) -> None:
     np.testing.assert_allclose(driven[-1, 1], (last.x, last.y), atol=1e-9)
     assert [tuple(view[1]) for view in views] == [(40.0, 40.0), (70.0, 15.0)]
     assert axes.get_title(loc='left') == 'small: 4 actions, 36 m'
+
+
+def test_the_curve_of_the_best_length_is_there_when_there_were_several(sample_plan: Plan) -> None:
+    (axes,) = draw(replace(sample_plan, improvements=(Improvement(0.5, 36.0),))).axes
+    assert not axes.child_axes
+    told = (Improvement(0.5, 44.0), Improvement(2.0, 36.0))
+    plan = replace(sample_plan, improvements=told, planning_time=3.0)
+    (axes,) = draw(plan).axes
+    (curve,) = axes.child_axes
+    line = curve.lines[0]
+    np.testing.assert_array_equal(line.get_xydata(), [(0.5, 44.0), (2.0, 36.0), (3.0, 36.0)])
+    assert write_picture(plan) == write_picture(plan)
 
 
 def test_a_footprint_is_drawn_where_the_robot_stands(sample_plan: Plan) -> None:

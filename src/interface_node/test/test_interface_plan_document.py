@@ -8,6 +8,7 @@ from math import inf, nan
 from typing import Any
 
 from interface_node.driving import drive
+from interface_node.history import History
 from interface_node.plan import Attitude, Diagnostic, Plan, Segment
 from interface_node.plan_document import to_text
 
@@ -39,6 +40,18 @@ def test_the_contract_is_kept(sample_plan: Plan) -> None:
     for key in ('length', 'duration'):
         assert document[key] == sum(step[key] for step in document['steps'])
     assert [step['clearance'] for step in document['steps']] == [None, 2.5, None, 2.5]
+
+
+def test_the_history_of_the_best_plan_is_told(sample_plan: Plan) -> None:
+    assert read(sample_plan)['improvements'] == []
+    history = History()
+    told = [history.note(*word) for word in ((0.5, inf), (1.0, 40.0), (1.5, 40.0), (2.5, 36.0))]
+    assert told == [False, True, False, True]
+    document = read(replace(sample_plan, improvements=tuple(history.improvements)))
+    assert document['improvements'] == [
+        {'elapsed': 1.0, 'length': 40.0},
+        {'elapsed': 2.5, 'length': 36.0},
+    ]
 
 
 def test_a_stranger_can_drive_the_plan_from_the_file_alone(sample_plan: Plan) -> None:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import isfinite
+from math import hypot, isfinite, remainder, tau
 
 from geohtn_msgs.action import PlanTasks
 from geohtn_msgs.msg import (
     AdviceAnswer,
+    AdviceRequest,
     AgentState,
     GeometricAnswer,
     PlanningProgress,
@@ -22,12 +23,23 @@ from geohtn_msgs.msg import Step as StepMessage
 
 from task_planner_node.errors import Diagnostic, GeometryFailed, Severity
 from task_planner_node.mission import MissionText
-from task_planner_node.oracle import Advice, Answer, CandidateAdvice, Scope, Status, Token
+from task_planner_node.oracle import (
+    Advice,
+    AdviceQuery,
+    Answer,
+    CandidateAdvice,
+    Opportunity,
+    Scope,
+    Status,
+    Token,
+)
 from task_planner_node.outcomes import Progress, Result
 from task_planner_node.search.plans import Plan, Step
 from task_planner_node.search.statistics import Statistics
 
 MAX_UINT32 = 2**32 - 1
+# [m] and [rad] by which the end of a motion, integrated, may miss the attitude that was preferred.
+NEAR = 1e-3
 MOST_TOLD = 1000
 
 
@@ -43,12 +55,17 @@ def states_from_token(token: Token) -> list[AgentState]:
     return [AgentState(agent=agent, x=x, y=y, heading=heading) for agent, x, y, heading in token]
 
 
-def answer_from_message(message: GeometricAnswer) -> Answer:
-    """An answer with the message itself as payload; raises GeometryFailed for an unknown status."""
+def answer_from_message(message: GeometricAnswer, preferred: Token | None = None) -> Answer:
+    """An answer with the message itself as payload; raises GeometryFailed for an unknown status.
+
+    ``preferred`` is the attitude that the query preferred.
+    """
     try:
         status, scope = Status(message.status), Scope(message.scope)
     except ValueError as error:
         raise GeometryFailed(f'the motion planner answered nonsense: {error}') from error
+    moved = [state for state in message.end if state.agent == message.agent]
+    wanted = states_from_token(preferred) if preferred is not None else []
     return Answer(
         status,
         int(message.code),
@@ -61,13 +78,56 @@ def answer_from_message(message: GeometricAnswer) -> Answer:
         tuple(diagnostic_from_message(diagnostic) for diagnostic in message.diagnostics),
         float(message.time_spent),
         message,
+        token_from_states(moved) if moved else None,
+        bool(moved and wanted) and _near(moved[0], wanted[0]),
+    )
+
+
+def _near(one: AgentState, other: AgentState) -> bool:
+    turn = remainder(one.heading - other.heading, tau)
+    return (
+        one.agent == other.agent
+        and hypot(one.x - other.x, one.y - other.y) <= NEAR
+        and abs(turn) <= NEAR
+    )
+
+
+def advice_to_message(query: AdviceQuery) -> AdviceRequest:
+    """What is to be known of candidates, without what belongs to the mission."""
+    return AdviceRequest(
+        start=states_from_token(query.start),
+        preconditions=list(query.preconditions),
+        purpose=int(query.purpose),
+        before=[first for first, _ in query.precedences],
+        after=[later for _, later in query.precedences],
+        ends=[AgentState() if end is None else states_from_token(end)[0] for end in query.ends],
+        effort=query.effort,
+        motions=[
+            answer.payload.motion
+            for answer in query.motions
+            if isinstance(answer.payload, GeometricAnswer)
+        ],
     )
 
 
 def advice_from_message(message: AdviceAnswer) -> Advice:
     """Advice; without candidates when the motion planner gave a code instead."""
     candidates = () if message.code else tuple(_candidate(c) for c in message.candidates)
-    return Advice(candidates, tuple(int(i) for i in message.order), float(message.time_spent))
+    return Advice(
+        candidates,
+        tuple(int(i) for i in message.order),
+        float(message.time_spent),
+        tuple(token_from_states([end]) if end.agent else None for end in message.ends),
+        tuple(
+            Opportunity(
+                int(found.candidate),
+                int(found.motion),
+                float(found.distance),
+                token_from_states([found.end]),
+            )
+            for found in message.opportunities
+        ),
+    )
 
 
 def _candidate(message: CandidateAdviceMessage) -> CandidateAdvice:
@@ -136,6 +196,8 @@ def statistics_to_message(statistics: Statistics) -> PlanningStatistics:
         decompositions=min(statistics.decompositions, MAX_UINT32),
         backtracks=min(statistics.backtracks, MAX_UINT32),
         geometric_backtracks=statistics.geometric_backtracks,
+        improvements=statistics.improvements,
+        opportunities=statistics.opportunities,
         planning_time=statistics.planning_time,
         request_time=statistics.request_time,
         transport_time=statistics.transport_time,

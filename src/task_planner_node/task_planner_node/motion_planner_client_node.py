@@ -7,10 +7,11 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from itertools import count
+from math import inf
 from typing import Any
 from uuid import uuid4
 
-from geohtn_msgs.msg import AdviceRequest, GeometricRequest
+from geohtn_msgs.msg import GeometricRequest
 from geohtn_msgs.srv import Advise, CancelRequest, CheckPreconditions, SatisfyPreconditions
 from rclpy.client import Client
 from rclpy.context import Context
@@ -19,12 +20,13 @@ from rclpy.node import Node
 
 from task_planner_node.conversions import (
     advice_from_message,
+    advice_to_message,
     answer_from_message,
     diagnostic_from_message,
     states_from_token,
 )
 from task_planner_node.errors import Cancelled, GeometryUnavailable, LimitReached
-from task_planner_node.oracle import Advice, Answer, Query, TextCheck, Token
+from task_planner_node.oracle import Advice, AdviceQuery, Answer, Query, TextCheck
 from task_planner_node.parameters import Parameters
 
 # [s] between two looks at the mission, and without the service until it counts as gone.
@@ -125,13 +127,16 @@ class RemoteOracle:
     def satisfy(self, query: Query) -> Answer:
         """Oracle.satisfy."""
         response = self._call(self.client.satisfy, self._request(query))
-        return answer_from_message(response.answer)
+        return answer_from_message(response.answer, query.preferred)
 
     def satisfy_together(self, queries: Sequence[Query]) -> Sequence[Answer]:
         """BatchOracle.satisfy_together: all requests are in flight at once, as replicas of the node can use."""
         requests = [self._request(query) for query in queries]
         responses = self._call_together(self.client.satisfy, requests)
-        return [answer_from_message(response.answer) for response in responses]
+        return [
+            answer_from_message(response.answer, query.preferred)
+            for response, query in zip(responses, queries, strict=True)
+        ]
 
     def _request(self, query: Query) -> SatisfyPreconditions.Request:
         request = GeometricRequest(
@@ -145,47 +150,51 @@ class RemoteOracle:
             world_revision=self.world_revision,
             seed=self.seed,
             time_budget=self.parameters.request_time_budget,
+            preferred_end=[] if query.preferred is None else states_from_token(query.preferred),
         )
         return SatisfyPreconditions.Request(request=request)
 
-    def advise(self, start: Token, preconditions: Sequence[str]) -> Advice:
+    def advise(self, query: AdviceQuery) -> Advice:
         """Oracle.advise."""
-        request = AdviceRequest(
-            request_id=self._request_id(),
-            mission=self.mission,
-            start=states_from_token(start),
-            preconditions=list(preconditions),
-            purpose=AdviceRequest.NEAREST_FIRST,
-            world_revision=self.world_revision,
-            seed=self.seed,
-        )
-        response = self._call(self.client.advise, Advise.Request(request=request))
+        request = advice_to_message(query)
+        request.request_id = self._request_id()
+        request.mission = self.mission
+        request.world_revision = self.world_revision
+        request.seed = self.seed
+        # How much work it is only the motion planner knows; it tells that it is alive meanwhile.
+        response = self._call(self.client.advise, Advise.Request(request=request), inf)
         return advice_from_message(response.answer)
 
     def _request_id(self) -> str:
         """An id that no other request has, for it may have to be cancelled."""
         return f'{self.mission}:{self._name}:{next(self._numbers)}'
 
-    def _call(self, client: Client, request: Any) -> Any:
-        return self._call_together(client, [request])[0]
+    def _call(self, client: Client, request: Any, budget: float | None = None) -> Any:
+        return self._call_together(client, [request], budget)[0]
 
-    def _call_together(self, client: Client, requests: Sequence[Any]) -> list[Any]:
-        """The responses; what is not waited for any more is cancelled."""
+    def _call_together(
+        self, client: Client, requests: Sequence[Any], budget: float | None = None
+    ) -> list[Any]:
+        """The responses; what is not waited for any more is cancelled.
+
+        ``budget`` [s] is what the motion planner may take for each, which it may answer one after the other.
+        """
         self._wait_for_service(client)
+        budget = self.parameters.request_time_budget if budget is None else budget
+        patience = len(requests) * budget + self.parameters.service_timeout
         futures = [client.call_async(request) for request in requests]
         try:
-            return [self._await(client, future, len(requests)) for future in futures]
+            return [self._await(client, future, patience) for future in futures]
         finally:
             for request, future in zip(requests, futures, strict=True):
                 if not future.done():
                     client.remove_pending_request(future)
                     self._cancel(request)
 
-    def _await(self, client: Client, future: Any, waiting: int) -> Any:
-        """The response, of ``waiting`` ones that the motion planner may give one after the other."""
+    def _await(self, client: Client, future: Any, patience: float) -> Any:
+        """The response, within ``patience`` [s]."""
         done = threading.Event()
         future.add_done_callback(lambda _: done.set())
-        patience = waiting * self.parameters.request_time_budget + self.parameters.service_timeout
         began = time.monotonic()
         lost = began
         pulse = Pulse(self.client.check)

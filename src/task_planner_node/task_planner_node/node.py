@@ -39,6 +39,7 @@ from task_planner_node.outcomes import Options, Outcome, Progress, Result
 from task_planner_node.parameters import (
     PARAMETERS,
     Parameters,
+    read_guidance,
     read_parameters,
     read_time_budget,
 )
@@ -223,6 +224,7 @@ def _options(request: PlanTasks.Goal, parameters: Parameters) -> Options:
         wanted.use_advice,
         wanted.plans or 1,
         parameters.memory_limit,
+        read_guidance(wanted.guidance or parameters.guidance),
     )
 
 

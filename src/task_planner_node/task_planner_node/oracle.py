@@ -63,7 +63,8 @@ INVALID_CODES = frozenset(
 class Query:
     """Can these ground preconditions be met from ``start``?  ``action`` is for people and logs.
 
-    ``behaviour`` holds constraints on the motion itself.
+    ``behaviour`` holds constraints on the motion itself.  ``preferred`` is an attitude of the agent to end at where
+    that can be; otherwise, and for further alternatives, the answer is as without.
     """
 
     action: tuple[str, ...]
@@ -71,11 +72,16 @@ class Query:
     start: Token
     alternative: int
     behaviour: str = ''
+    preferred: Token | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """``end`` and ``length`` [m] hold when FOUND; ``payload`` is the message for the plan, unopened."""
+    """``end`` and ``length`` [m] hold when FOUND; ``payload`` is the message for the plan, unopened.
+
+    ``attitude`` is that of the agent that moved, in ``end``; ``as_preferred`` tells that it is the one that the
+    query preferred.
+    """
 
     status: Status
     code: int = 0
@@ -88,6 +94,35 @@ class Answer:
     diagnostics: tuple[Diagnostic, ...] = ()
     time_spent: float = 0.0
     payload: object = field(default=None, compare=False)
+    attitude: Token | None = None
+    as_preferred: bool = False
+
+
+class Purpose(IntEnum):
+    """What the order of an advice is for: the numbers of geohtn_msgs/AdviceRequest."""
+
+    NEAREST_FIRST = 0
+    SHORTEST_TOUR = 1
+    FIXED_ORDER = 2
+    OPPORTUNITIES = 3
+
+
+@dataclass(frozen=True, slots=True)
+class AdviceQuery:
+    """What is to be known of candidates, at most 1000 ground texts, from ``start``.
+
+    ``precedences`` are pairs of indices, the first of which has to come before the second.  ``ends`` are known
+    attitudes of the agent for the candidates, None where there is none, to improve on with growing ``effort``.
+    ``motions`` are the FOUND answers of a plan whose motions are looked along, one after the other.
+    """
+
+    start: Token
+    preconditions: tuple[str, ...]
+    purpose: Purpose = Purpose.NEAREST_FIRST
+    precedences: tuple[tuple[int, int], ...] = ()
+    ends: tuple[Token | None, ...] = ()
+    effort: int = 0
+    motions: tuple[Answer, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,12 +141,28 @@ class CandidateAdvice:
 
 
 @dataclass(frozen=True, slots=True)
+class Opportunity:
+    """The candidate of that index is met ``distance`` [m] along a motion, where the agent is at ``end``."""
+
+    candidate: int
+    motion: int
+    distance: float
+    end: Token
+
+
+@dataclass(frozen=True, slots=True)
 class Advice:
-    """Advice on every candidate, and their indices in the order to try; empty when there is none."""
+    """Advice on every candidate, and their indices in the order to try; empty when there is none.
+
+    ``ends`` are the attitudes of a tour, in the order of the candidates, None where none is known; ``opportunities``
+    are in the order in which they come up.
+    """
 
     candidates: tuple[CandidateAdvice, ...]
     order: tuple[int, ...]
     time_spent: float = 0.0
+    ends: tuple[Token | None, ...] = ()
+    opportunities: tuple[Opportunity, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,8 +186,8 @@ class Oracle(Protocol):
     def satisfy(self, query: Query) -> Answer:
         """Answer one request."""
 
-    def advise(self, start: Token, preconditions: Sequence[str]) -> Advice:
-        """Advise on at most 1000 ground texts."""
+    def advise(self, query: AdviceQuery) -> Advice:
+        """Advise on candidates."""
 
 
 @runtime_checkable

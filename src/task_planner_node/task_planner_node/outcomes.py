@@ -7,6 +7,7 @@ from enum import IntEnum
 from math import inf
 
 from task_planner_node.errors import Diagnostic
+from task_planner_node.parameters import Guidance
 from task_planner_node.search.plans import Plan, Step
 from task_planner_node.search.statistics import Statistics
 
@@ -27,6 +28,7 @@ class Outcome(IntEnum):
 class Options:
     """How a mission is searched; ``time_budget`` in seconds, ``plans`` is how many are wanted.
 
+    ``guidance`` is the order of tasks that advice is asked for.
     ``memory_limit`` [MiB] is what the search may take beyond what the process holds at its beginning.
     """
 
@@ -37,6 +39,7 @@ class Options:
     use_advice: bool = True
     plans: int = 1
     memory_limit: int = 4096
+    guidance: Guidance = 'tour'
 
 
 @dataclass(frozen=True, slots=True)

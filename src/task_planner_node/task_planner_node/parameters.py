@@ -5,8 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal, get_args
 
-Value = int | float
+Number = int | float
+Guidance = Literal['tour', 'nearest_first']
+GUIDANCES: tuple[Guidance, ...] = get_args(Guidance)
 
 
 @dataclass(frozen=True, slots=True)
@@ -14,11 +17,22 @@ class Parameter:
     """One parameter: a whole number when ``default`` is one, else a real number."""
 
     name: str
-    default: Value
+    default: Number
     unit: str
-    lowest: Value
-    highest: Value
+    lowest: Number
+    highest: Number
     description: str
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """A parameter that is one of the words ``choices``."""
+
+    name: str
+    default: str
+    choices: tuple[str, ...]
+    description: str
+    unit: str = ''
 
 
 PARAMETERS = (
@@ -38,6 +52,7 @@ PARAMETERS = (
     Parameter(
         'service_timeout', 4.0, 's', 0.1, 600.0, 'wait for the services of the motion planner'
     ),
+    Choice('guidance', 'tour', GUIDANCES, 'order of tasks that advice is asked for, unless named'),
 )
 
 
@@ -51,6 +66,7 @@ class Parameters:
     memory_limit: int = 4096
     request_time_budget: float = 5.0
     service_timeout: float = 4.0
+    guidance: Guidance = 'tour'
 
 
 def read_parameters(values: Mapping[str, object]) -> Parameters:
@@ -58,7 +74,12 @@ def read_parameters(values: Mapping[str, object]) -> Parameters:
 
     Raises ValueError with a sentence that names the parameter, its unit and its range.
     """
-    checked = {p.name: _check(p, values.get(p.name, p.default)) for p in PARAMETERS}
+    checked = {
+        p.name: _check(p, values.get(p.name, p.default))
+        for p in PARAMETERS
+        if isinstance(p, Parameter)
+    }
+    guidance = values.get('guidance', 'tour')
     return Parameters(
         float(checked['time_budget']),
         int(checked['max_alternatives']),
@@ -66,7 +87,18 @@ def read_parameters(values: Mapping[str, object]) -> Parameters:
         int(checked['memory_limit']),
         float(checked['request_time_budget']),
         float(checked['service_timeout']),
+        read_guidance(guidance, f'parameter guidance has to be one of {", ".join(GUIDANCES)}'),
     )
+
+
+def read_guidance(
+    wanted: object, rule: str = f'options.guidance has to be empty or one of {", ".join(GUIDANCES)}'
+) -> Guidance:
+    """The order of tasks that advice is asked for; raises ValueError with the ``rule`` for any other word."""
+    for guidance in GUIDANCES:
+        if wanted == guidance:
+            return guidance
+    raise ValueError(f'{rule}, not {wanted!r}')
 
 
 def read_time_budget(wanted: float) -> float:
@@ -82,7 +114,7 @@ def read_time_budget(wanted: float) -> float:
     )
 
 
-def _check(parameter: Parameter, value: object) -> Value:
+def _check(parameter: Parameter, value: object) -> Number:
     whole = isinstance(parameter.default, int)
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
     if (

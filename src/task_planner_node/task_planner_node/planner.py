@@ -24,18 +24,19 @@ from task_planner_node.explanation import (
 from task_planner_node.language.model import Domain, Problem, show
 from task_planner_node.memory import resident
 from task_planner_node.mission import MissionText, check_and_compile, read_mission
-from task_planner_node.oracle import INVALID_CODES, Oracle, Token
+from task_planner_node.oracle import INVALID_CODES, Oracle, Purpose, Token
 from task_planner_node.outcomes import Options, Outcome, Progress, Result
+from task_planner_node.search.anytime import Anytime
 from task_planner_node.search.domain import Start
-from task_planner_node.search.engine import Search
 from task_planner_node.search.geometry import Geometry, RequestRefused
 from task_planner_node.search.partial_plan import Limits
-from task_planner_node.search.plans import Plan
+from task_planner_node.search.plans import Plan, Plans
 from task_planner_node.search.repair import Interrupted, Repair
 from task_planner_node.search.state import State
 from task_planner_node.search.statistics import Statistics
 
 PROGRESS_INTERVAL = 0.1
+PURPOSES = {'tour': Purpose.SHORTEST_TOUR, 'nearest_first': Purpose.NEAREST_FIRST}
 
 
 class Planner:
@@ -60,9 +61,10 @@ class Planner:
         self._reported = -1.0
         self._held = resident()
         self._statistics = Statistics()
-        self._search: Search | None = None
+        self._anytime: Anytime | None = None
+        self._plans: Plans | None = None
+        self._first: Plan | None = None
         self._told: Plan | None = None
-        self._state: State | None = None
         self._problem: Problem | None = None
         self._domain: Domain | None = None
 
@@ -100,9 +102,9 @@ class Planner:
             outcome, explanation = Outcome.FAILED, str(error)
         self._statistics.planning_time = time.monotonic() - self._began
         self._say('writing', force=True)
-        search = self._search
-        plans = tuple(search.plans.kept) if search and outcome == Outcome.SOLVED else ()
-        details = details_of(explanation, search)
+        kept = self._plans.kept if self._plans else ()
+        plans = tuple(kept) if outcome == Outcome.SOLVED else ()
+        details = details_of(explanation, self._anytime.search if self._anytime else None)
         return Result(outcome, explanation, diagnostics, plans, self._statistics, details)
 
     def _plan(
@@ -122,30 +124,33 @@ class Planner:
         if interrupted is not None:
             facts = interrupted.facts(domain, facts)
             beginning = Repair(
-                beginning, interrupted, lambda: self._search.deepest if self._search else 0
+                beginning, interrupted, lambda: self._anytime.search.deepest if self._anytime else 0
             )
-        self._state = State(mission.domain.plan, facts, self._check)
-        geometry = Geometry(
-            self._oracle,
-            self._statistics,
-            self._options.max_alternatives,
-            self._check,
-        )
         options = self._options
-        search = self._search = Search(
+        limits = Limits(
+            options.max_depth,
+            options.optimise,
+            options.use_advice,
+            options.plans,
+            PURPOSES[options.guidance],
+        )
+        plans = self._plans = Plans(limits, self._improve)
+        anytime = self._anytime = Anytime(
             mission.domain,
             beginning,
-            self._state,
-            geometry,
+            problem.tasks if interrupted is None else None,
+            State(mission.domain.plan, facts, self._check),
+            Geometry(self._oracle, self._statistics, options.max_alternatives, self._check),
             self._statistics,
-            Limits(options.max_depth, options.optimise, options.use_advice, options.plans),
+            limits,
+            plans,
             self._check,
-            self._improve,
         )
         self._say('searching', force=True)
-        search.run(start)
-        if search.best is not None:
-            return Outcome.SOLVED, explain_solution(search), mission.warnings
+        anytime.run(start)
+        if plans.best is not None:
+            return Outcome.SOLVED, explain_solution(plans.best), mission.warnings
+        search = anytime.search
         outcome = Outcome.NO_PLAN if search.proven else Outcome.LIMIT
         reason = '' if search.proven else 'not everything could be tried: nothing is proven'
         explanation, remarks = explain_failure(search, reason, domain, problem)
@@ -164,16 +169,23 @@ class Planner:
 
     def _at_limit(self, reason: str) -> tuple[Outcome, str, tuple[Diagnostic, ...]]:
         """A limit ends the search: with the best plan so far when there is one."""
-        search, domain, problem = self._search, self._domain, self._problem
-        if search is None or domain is None or problem is None:
+        anytime, domain, problem = self._anytime, self._domain, self._problem
+        if anytime is None or domain is None or problem is None:
             return Outcome.LIMIT, reason, ()
-        if search.best is not None:
-            return Outcome.SOLVED, explain_solution(search), ()
-        explanation, remarks = explain_failure(search, reason, domain, problem)
+        best = self._plans.best if self._plans else None
+        if best is not None:
+            return Outcome.SOLVED, explain_solution(best), ()
+        explanation, remarks = explain_failure(anytime.search, reason, domain, problem)
         return Outcome.LIMIT, explanation, remarks
 
-    def _improve(self, _: Plan) -> None:
-        if self._options.optimise:
+    def _improve(self, plan: Plan) -> None:
+        """Tell a plan that is better than all before."""
+        plans = self._plans
+        if plans is None or plan is not plans.best:
+            return
+        self._statistics.improvements += self._first is not None
+        self._first = self._first or plan
+        if self._options.optimise or plan is not self._first:
             self._say('searching', force=True)
 
     def _check(self) -> None:
@@ -197,17 +209,17 @@ class Planner:
         if not force and elapsed - self._reported < PROGRESS_INTERVAL:
             return False
         self._reported = elapsed
-        problem, state, search = self._problem, self._state, self._search
-        if problem is None or state is None or search is None:
+        problem, anytime = self._problem, self._anytime
+        if problem is None or anytime is None:
             self._report(Progress(phase, elapsed=elapsed))
             return True
         statistics = self._statistics
-        position = search.position
-        best = search.best
+        position = anytime.running.position
+        best = self._plans.best if self._plans else None
         self._report(
             Progress(
                 phase,
-                sum((goal.name, *goal.args) in state.facts for goal in problem.goals),
+                sum((goal.name, *goal.args) in anytime.state.facts for goal in problem.goals),
                 len(problem.goals),
                 statistics.requests,
                 statistics.backtracks + statistics.geometric_backtracks,

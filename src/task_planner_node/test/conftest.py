@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -13,6 +13,7 @@ import pytest
 from task_planner_node.mission import MissionText
 from task_planner_node.oracle import (
     Advice,
+    AdviceQuery,
     Answer,
     CandidateAdvice,
     Oracle,
@@ -20,7 +21,6 @@ from task_planner_node.oracle import (
     Scope,
     Status,
     TextCheck,
-    Token,
 )
 from task_planner_node.outcomes import Options, Result
 from task_planner_node.planner import Planner
@@ -72,9 +72,10 @@ class RoverMotionPlanner:
         end = (PLACES[label], query.alternative)
         return Answer(Status.FOUND, end=end, length=length, objects=(label,))
 
-    def advise(self, start: Token, preconditions: Sequence[str]) -> Advice:
-        places = [labels(text)[0] for text in preconditions]
+    def advise(self, query: AdviceQuery) -> Advice:
+        places = [labels(text)[0] for text in query.preconditions]
         self.advised.append(tuple(places))
+        start = query.start
         assert isinstance(start, tuple)
         costs = [(label in self.walled, math.dist(start[0], PLACES[label])) for label in places]
         candidates = tuple(
@@ -100,8 +101,8 @@ class NoMotionPlanner:
     def satisfy(self, query: Query) -> Answer:
         raise AssertionError(query)
 
-    def advise(self, start: Token, preconditions: Sequence[str]) -> Advice:
-        raise AssertionError((start, preconditions))
+    def advise(self, query: AdviceQuery) -> Advice:
+        raise AssertionError(query)
 
 
 @pytest.fixture(scope='session')

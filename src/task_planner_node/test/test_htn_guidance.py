@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from task_planner_node.oracle import (
     Advice,
+    AdviceQuery,
     Answer,
     CandidateAdvice,
     Query,
@@ -61,9 +62,9 @@ class Plane:
             return Answer(Status.UNKNOWN, 202, message='no path')
         return Answer(Status.FOUND, end=goal, length=math.dist(here, self.places[goal]))
 
-    def advise(self, start: Token, preconditions: Sequence[str]) -> Advice:
-        here = self._at(start)[1]
-        lengths = [math.dist(here, self.places[self._place(text)]) for text in preconditions]
+    def advise(self, query: AdviceQuery) -> Advice:
+        here = self._at(query.start)[1]
+        lengths = [math.dist(here, self.places[self._place(t)]) for t in query.preconditions]
         order = sorted(range(len(lengths)), key=lengths.__getitem__)
         return Advice(
             tuple(CandidateAdvice(lower_bound=length) for length in lengths), tuple(order)
@@ -81,8 +82,8 @@ class Batches(Plane):
 class Vague(Plane):
     """The same, without lower bounds."""
 
-    def advise(self, start: Token, preconditions: Sequence[str]) -> Advice:
-        advice = super().advise(start, preconditions)
+    def advise(self, query: AdviceQuery) -> Advice:
+        advice = super().advise(query)
         return Advice(tuple(CandidateAdvice() for _ in advice.candidates), advice.order)
 
 

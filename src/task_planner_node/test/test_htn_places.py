@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import pytest
 
 from task_planner_node.errors import Diagnostic, Severity
 from task_planner_node.oracle import (
     Advice,
+    AdviceQuery,
     Answer,
     CandidateAdvice,
     Code,
@@ -16,7 +17,6 @@ from task_planner_node.oracle import (
     Scope,
     Status,
     TextCheck,
-    Token,
 )
 from task_planner_node.outcomes import Outcome, Result
 
@@ -64,10 +64,10 @@ class Plant:
                 return answer
         return Answer(Status.FOUND, assigned='setProperty' in query.preconditions, length=1.0)
 
-    def advise(self, _start: Token, preconditions: Sequence[str]) -> Advice:
+    def advise(self, query: AdviceQuery) -> Advice:
         codes = [
             next((code for word, code in self._advice.items() if word in text), 0)
-            for text in preconditions
+            for text in query.preconditions
         ]
         candidates = tuple(CandidateAdvice(code=code) for code in codes)
         return Advice(candidates, tuple(i for i, code in enumerate(codes) if not code))

@@ -12,13 +12,13 @@ from hypothesis import strategies as st
 
 from task_planner_node.oracle import (
     Advice,
+    AdviceQuery,
     Answer,
     CandidateAdvice,
     Query,
     Scope,
     Status,
     TextCheck,
-    Token,
 )
 from task_planner_node.outcomes import Options, Outcome, Result
 
@@ -250,7 +250,8 @@ class RandomMotionPlanner:
             return Answer(Status.UNKNOWN, 202, message='not found')
         return Answer(Status.FOUND, end=name, length=1.0)
 
-    def advise(self, _start: Token, preconditions: list[str]) -> Advice:
+    def advise(self, query: AdviceQuery) -> Advice:
+        preconditions = query.preconditions
         order = sorted(
             range(len(preconditions)), key=preconditions.__getitem__, reverse=self.reverse
         )

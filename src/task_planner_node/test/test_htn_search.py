@@ -27,7 +27,7 @@ def photos(result: Result) -> list[str]:
 def test_the_papers_mission_takes_every_photo_nearest_first(
     plan: Plan, rover_mission: Mission, rover_motion_planner: World
 ) -> None:
-    result = plan(*rover_mission, rover_motion_planner())
+    result = plan(*rover_mission, rover_motion_planner(), Options(guidance='nearest_first'))
     assert result.outcome == Outcome.SOLVED
     assert not result.diagnostics
     assert result.steps[0].action == ('!init_rover_attitude', 'rover0', 'location0')
@@ -48,7 +48,7 @@ def test_all_open_goals_are_advised_together(
     plan: Plan, rover_mission: Mission, rover_motion_planner: World
 ) -> None:
     world = rover_motion_planner()
-    plan(*rover_mission, world)
+    plan(*rover_mission, world, Options(guidance='nearest_first'))
     assert [len(places) for places in world.advised] == [8, 7, 6, 5, 4, 3, 2]
 
 

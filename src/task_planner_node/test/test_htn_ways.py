@@ -19,6 +19,7 @@ from task_planner_node.planner import Planner
 from task_planner_node.search.engine import Search
 from task_planner_node.search.geometry import Geometry
 from task_planner_node.search.partial_plan import Limits
+from task_planner_node.search.plans import Plans
 from task_planner_node.search.state import State
 from task_planner_node.search.statistics import Statistics
 
@@ -49,14 +50,16 @@ def test_an_explicit_order_allows_its_linear_extensions(
     mission = check_and_compile(domain, problem, no_motion_planner)
     state, statistics = State(mission.domain.plan, []), Statistics()
     geometry = Geometry(no_motion_planner, statistics, 1, lambda: None)
+    limits = Limits(plans=100)
     search = Search(
         mission.domain,
         mission.domain.beginning(problem),
         state,
         geometry,
         statistics,
-        Limits(plans=100),
+        limits,
         lambda: None,
+        Plans(limits, lambda _: None),
     )
     search.run(())
     plans = {tuple(int(action[1]) for action in plan.actions) for plan in search.plans.kept}

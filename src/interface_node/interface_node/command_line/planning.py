@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Collection
+from math import inf, isfinite
 from typing import Protocol
 
 from interface_node.command_line.console import Console
@@ -86,12 +87,16 @@ def plan_mission(
     """
     client.start(goal)
     phase = ''
+    first = best = inf
     heard = silent = 0
     try:
         while not client.wait(_POLL):
             progress = client.progress
-            console.status(progress_line(progress), new_phase=progress.phase != phase)
-            phase = progress.phase
+            length = progress.best_length
+            first = first if isfinite(first) else length
+            news = progress.phase != phase or length != best
+            console.status(progress_line(progress, first), new_phase=news)
+            phase, best = progress.phase, length
             check()
             if 'interface_node' in client.missing():
                 raise CommandError('interface_node went away while it planned', ExitCode.NO_NODE)

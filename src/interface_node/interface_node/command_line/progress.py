@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from math import isfinite
+from math import inf, isfinite
 
 from interface_node.command_line.results import Progress
 
 
-def progress_line(progress: Progress) -> str:
-    """One line for people: phase, goals, requests, backtracks, best length [m], time [s]."""
+def progress_line(progress: Progress, first_length: float = inf) -> str:
+    """One line for people: phase, goals, requests, backtracks, best length [m], time [s].
+
+    ``first_length`` [m] is that of the first plan.
+    """
     parts = [progress.phase or 'planning']
     if progress.goals_total:
         parts.append(f'goals {progress.goals_reached}/{progress.goals_total}')
@@ -16,7 +19,10 @@ def progress_line(progress: Progress) -> str:
         parts.append(f'requests {progress.requests}')
         parts.append(f'backtracks {progress.backtracks}')
     if isfinite(progress.best_length):
-        parts.append(f'best {progress.best_length:.1f} m')
+        best = f'best {progress.best_length:.1f} m'
+        if isfinite(first_length) and first_length != progress.best_length:
+            best += f' (first {first_length:.1f} m)'
+        parts.append(best)
     if isfinite(progress.best_cost):
         parts.append(f'cost {progress.best_cost:.1f}')
     parts.append(f'{progress.elapsed:.1f} s')

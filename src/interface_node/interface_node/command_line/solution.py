@@ -91,9 +91,13 @@ def totals(result: MissionResult) -> tuple[str, ...]:
     )
     times = f'search {search}, requests {requests}, transport {transport}'
     answers = f'{found} found, {impossible} impossible, {unknown} unknown'
+    improvements = int(counted.get('improvements', 0))
+    met = int(counted.get('opportunities', 0))
+    better = f'{improvements} ({met} goals met on the way)' if improvements else ''
     lines = [
         ('length', f'{plan.length:.1f} m'),
         ('planning time', f'{plan.planning_time:.3f} s ({times})'),
+        *([('improvements', better)] if better else []),
         ('requests', f'{asked} ({answers}), {advices} advices'),
         ('backtracks', f'{tasks} over tasks, {destinations} over destinations'),
         *(('' if k else 'files', file) for k, file in enumerate(result.files)),

@@ -29,6 +29,7 @@ from interface_node.picture.marks import (
     number_style,
     pill,
 )
+from interface_node.picture.progress import draw_progress
 from interface_node.picture.robots import robot_colors, robots_in_sight, starts
 from interface_node.picture.style import BETWEEN, INK, OBJECTIVE, PAIR, PROGRESS, QUIET, VIEW
 from interface_node.picture.terrain import (
@@ -80,6 +81,7 @@ def draw(plan: Plan) -> Figure:
         spine.set_color(OBSTACLE_EDGE)
     axes.set_title(_title(plan), loc='left', fontsize=13, color=INK, parse_math=False)
 
+    draw_progress(axes, plan)
     draw_regions(axes, world)
     draw_map(axes, world)
     draw_obstacles(axes, world)

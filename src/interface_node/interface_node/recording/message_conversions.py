@@ -14,6 +14,7 @@ from geohtn_msgs.msg import (
     Outcome,
     PlanningEvent,
     PlanningOptions,
+    PlanningProgress,
     PlanningStatistics,
     SourceText,
 )
@@ -34,6 +35,7 @@ TOPICS: dict[str, Any] = {
     '/mission/problem': SourceText,
     '/mission/world': SourceText,
     '/mission/options': PlanningOptions,
+    '/mission/progress': PlanningProgress,
     EVENTS: PlanningEvent,
     '/map': OccupancyGrid,
     '/markers': MarkerArray,

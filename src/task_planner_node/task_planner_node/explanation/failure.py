@@ -11,15 +11,15 @@ from task_planner_node.language.model import Domain, Problem, shorten, show
 from task_planner_node.mission import locate
 from task_planner_node.search.dead_ends import DeadEnd
 from task_planner_node.search.engine import Search
+from task_planner_node.search.plans import Plan
 
 MOST_LINES = 8
 MOST_ACTIONS = 5
 
 
-def explain_solution(search: Search) -> str:
+def explain_solution(best: Plan) -> str:
     """How long the plan is."""
-    best = search.best
-    if best is None or not best.steps:
+    if not best.steps:
         return 'nothing has to be done: the plan is empty'
     return f'a plan of {_actions(len(best.steps))}, {best.length:.1f} m'
 

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import chain, islice
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
+from task_planner_node.oracle import Purpose
+from task_planner_node.search.advice import Advisor
 from task_planner_node.search.domain import CompiledDomain, Start
 from task_planner_node.search.geometry import Geometry, Request
 from task_planner_node.search.guidance import leading_request
@@ -18,7 +21,6 @@ from task_planner_node.search.network import (
     Parallel,
     Path,
     Task,
-    cell,
     first_cells,
     urgent,
 )
@@ -33,6 +35,7 @@ from task_planner_node.search.partial_plan import (
 from task_planner_node.search.relaxation import no_definition_fits
 from task_planner_node.search.state import State
 from task_planner_node.search.terms import Frame
+from task_planner_node.search.tours import Following, Tour
 from task_planner_node.search.unbound import ground
 
 if TYPE_CHECKING:
@@ -40,7 +43,6 @@ if TYPE_CHECKING:
 
 # Ways to decompose a task that are put in order; the others come after them.
 MOST_ORDERED = 64
-T = TypeVar('T')
 Bindings = Iterator[tuple[CompiledBranch, Frame]]
 
 
@@ -61,6 +63,7 @@ class Candidates:
         self._state = state
         self._geometry = geometry
         self._limits = limits
+        self._advisor = Advisor(geometry)
         self._landmarks = Landmarks(domain, beginning, state, geometry)
 
     def tasks(self, position: Position) -> Way:
@@ -101,16 +104,17 @@ class Candidates:
             yield _choosing(position, Chosen(*candidates[0], focus=True))
             candidates = candidates[1:]
         version = self._geometry.version
-        requests = [self._leading(where, cell(part[0], None)) for part, _ in candidates]
-        ordered = self._best_first(where, candidates, requests, ask=not focused)
+        ordered = self._best_first(where, candidates, ask=not focused)
         if self._is_too_long(position):
             return
         if self._geometry.version != version:
             yield ()
-        for tried, (part, path) in enumerate(ordered):
+        for tried, (index, tour) in enumerate(ordered):
             if tried == 1:
+                requests = [self._leading(where, part) for part, _ in candidates]
                 self._geometry.ask_together([request for request in requests if request])
-            yield _choosing(position, Chosen(part, path, focus=True))
+            there = position if tour is where.tour else _on_tour(position, tour)
+            yield _choosing(there, Chosen(*candidates[index], focus=True))
 
     def bindings(self, where: Whereabouts, found: Bindings) -> Bindings:
         """Ways to decompose a task, those with the nearest first motions first, unless the text sorts them."""
@@ -122,11 +126,12 @@ class Candidates:
         requests = [
             self._leading(where, branch.grow(frame.copy(), None, None)) for branch, frame in first
         ]
-        return chain(self._best_first(where, first, requests, ask=True), found)
+        return chain([first[i] for i in self._best_bindings(where, requests)], found)
 
     def _is_too_long(self, position: Position) -> bool:
         """Whether no better plan than those known can come of a position, as far as advice tells."""
-        if not self._limits.optimise:
+        tour = position[1].tour
+        if not self._limits.optimise or (tour is not None and tour.tour.lasting):
             return False
         network, where, cost, rest_cost, _, _, _ = position
         least = self._landmarks.least_length(where.start, where.met, network)
@@ -138,20 +143,47 @@ class Candidates:
         return leading_request(self._domain, self._state, network, where)
 
     def _best_first(
-        self,
-        where: Whereabouts,
-        choices: Sequence[T],
-        requests: Sequence[Request | None],
-        ask: bool,
-    ) -> list[T]:
-        """Choices whose first motion is known change places among themselves, the others stay."""
+        self, where: Whereabouts, candidates: Sequence[tuple[Cell, Path]], ask: bool
+    ) -> list[tuple[int, Following | None]]:
+        """The indices of tasks in the order to try, each with the tour to follow if it is chosen."""
+        parts = [part for part, _ in candidates]
+        tour = where.tour
+        if tour is not None and tour.tour.lasting:
+            return [(i, tour) for i in _sorted([tour.place(part) for part in parts])]
+        if tour is not None and tour.covers(parts):
+            order = _sorted([tour.place(part) for part in parts])
+            first = parts[order[0]]
+            request = self._leading(where, first)
+            if request is not None and tour.stop(request.text) == tour.place(first):
+                return _first_on(tour, order)
+        requests = [self._leading(where, part) for part in parts]
+        wanted = [request.text for request in requests if request is not None]
+        stops = self._advisor.order(self._limits.purpose, where, wanted, ask) if wanted else {}
+        places = {text: place for place, text in enumerate(stops)}
+        ahead: dict[Task | int, list[int]] = {}
+        ranks: list[int | None] = []
+        for part, request in zip(parts, requests, strict=True):
+            text = request.text if request is not None else _expected(tour, part)
+            rank = places.get(text) if text is not None else None
+            ahead[part[4]] = [rank] if rank is not None else []
+            ranks.append(rank)
+        fresh = Following(Tour(list(stops.values()), ahead, lasting=False)) if stops else None
+        return _first_on(fresh, _sorted(ranks))
+
+    def _best_bindings(
+        self, where: Whereabouts, requests: Sequence[Request | None]
+    ) -> Sequence[int]:
+        """The indices of ways to decompose a task, in the order to try."""
+        if where.tour is not None and where.tour.tour.lasting:
+            places = [where.tour.stop(r.text) if r is not None else None for r in requests]
+            if any(place is not None for place in places):
+                return _sorted(places)
         texts = [request.text for request in requests if request is not None]
-        ranks = self._geometry.ranks(where.start, where.lineage, texts, ask) if texts else {}
-        rank = {i: ranks[r.text] for i, r in enumerate(requests) if r and r.text in ranks}
-        ordered = list(choices)
-        for place, chosen in zip(rank, sorted(rank, key=rank.__getitem__), strict=True):
-            ordered[place] = choices[chosen]
-        return ordered
+        if not texts:
+            return range(len(requests))
+        stops = self._advisor.order(Purpose.NEAREST_FIRST, where, texts, ask=True)
+        ranks = {text: place for place, text in enumerate(stops)}
+        return _sorted([ranks.get(r.text) if r is not None else None for r in requests])
 
     def _fitting(self, task: Task) -> list[CompiledMethod]:
         if ground(task):
@@ -173,3 +205,27 @@ def _front(network: Network) -> tuple[Cell, Path]:
 
 def _choosing(position: Position, chosen: Chosen) -> Position:
     return (*position[:6], chosen)
+
+
+def _on_tour(position: Position, tour: Following | None) -> Position:
+    return (position[0], replace(position[1], tour=tour), *position[2:])
+
+
+def _expected(tour: Following | None, part: Cell) -> str | None:
+    """What a branch will lead to once something else is done, as far as a tour tells."""
+    place = tour.place(part) if tour is not None else None
+    return tour.tour.stops[place].text if tour is not None and place is not None else None
+
+
+def _first_on(tour: Following | None, order: Sequence[int]) -> list[tuple[int, Following | None]]:
+    """The first candidate follows the tour; what is tried instead of it leads away from it."""
+    return [(index, None if place else tour) for place, index in enumerate(order)]
+
+
+def _sorted(places: Sequence[int | None]) -> list[int]:
+    """The indices of the places in ascending order; those without a place stay where they are."""
+    known = [index for index, place in enumerate(places) if place is not None]
+    order = list(range(len(places)))
+    for target, source in zip(known, sorted(known, key=lambda i: places[i] or 0), strict=True):
+        order[target] = source
+    return order

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import inf
 
 from task_planner_node.errors import LimitReached
 from task_planner_node.language.model import shorten, show
@@ -22,10 +23,11 @@ from task_planner_node.search.partial_plan import (
     Way,
     Whereabouts,
 )
-from task_planner_node.search.plans import Plan, Plans
+from task_planner_node.search.plans import Plans
 from task_planner_node.search.relaxation import prove_dead
 from task_planner_node.search.state import State
 from task_planner_node.search.statistics import Statistics
+from task_planner_node.search.tours import Following
 from task_planner_node.search.ways import Ways
 
 CHECK_INTERVAL = 64
@@ -42,8 +44,7 @@ MOST_BEGUN = 500_000
 class Search:
     """Depth-first search over task choices, methods, bindings and geometric alternatives.
 
-    ``check`` is called every CHECK_INTERVAL decompositions and raises to end the search; ``found`` hears each plan
-    that is better than all before.
+    ``check`` is called every CHECK_INTERVAL decompositions and raises to end the search; ``plans`` takes the plans.
     """
 
     def __init__(
@@ -55,7 +56,7 @@ class Search:
         statistics: Statistics,
         limits: Limits,
         check: Callable[[], None],
-        found: Callable[[Plan], None] = lambda _: None,
+        plans: Plans,
     ) -> None:
         self.dead_ends = DeadEnds()
         self.proofs: dict[Task, DeadEnd] = {}
@@ -65,7 +66,7 @@ class Search:
         self.stack: list[Node] = []
         self.position: Position | None = None
         self.log: list[Expansion] = []
-        self.plans = Plans(limits, found)
+        self.plans = plans
         self.visited = Visited(limits.optimise, limits.plans > 1)
         self._domain = domain
         self._beginning = beginning
@@ -78,13 +79,19 @@ class Search:
         self._repeats = 0
         self._begun: set[tuple[object, tuple[int, Token]]] = set()
         self._steps = 0
+        self._most_requests = self._most_backtracks = inf
+        if limits.most_requests is not None:
+            self._most_requests = statistics.requests + limits.most_requests
+        if limits.most_backtracks is not None:
+            self._most_backtracks = statistics.backtracks + limits.most_backtracks
 
-    def run(self, start: Token) -> None:
-        """Search; the plans are left in ``plans``, and ``proven`` tells whether there are no others.
+    def run(self, start: Token, tour: Following | None = None) -> None:
+        """Search along ``tour`` as far as that goes.
 
+        The plans are left in ``plans``, and ``proven`` tells whether there are no others.
         Raises LimitReached, Cancelled, GeometryUnavailable, GeometryFailed and MissionError.
         """
-        where = self._first = Whereabouts(start, start, 0.0)
+        where = self._first = Whereabouts(start, start, 0.0, tour=tour)
         while True:
             root = self._node((None, where, 0.0, 0.0, 0, False, None))
             root.moves = self._ways.beginnings(where)
@@ -102,11 +109,6 @@ class Search:
             # What leads back to the same task in the same state is tried once more often than before.
             self._repeats += 1
             self.visited.forget()
-
-    @property
-    def best(self) -> Plan | None:
-        """The best plan so far."""
-        return self.plans.best
 
     def _node(self, position: Position) -> Node:
         return Node(
@@ -147,6 +149,11 @@ class Search:
 
     def _backward(self) -> Position | None:
         self._statistics.backtracks += 1
+        if (
+            self._statistics.requests > self._most_requests
+            or self._statistics.backtracks > self._most_backtracks
+        ):
+            self._end()
         waited = self._statistics.backtracks == PATIENCE and not self._domain.geometric
         if waited and self._hopeless_from_the_start():
             self._end()

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from task_planner_node.language.model import show
 from task_planner_node.oracle import (
-    INVALID_CODES,
+    Advice,
+    AdviceQuery,
     Answer,
     BatchOracle,
     Code,
@@ -21,7 +22,6 @@ from task_planner_node.oracle import (
 from task_planner_node.search.network import Task
 from task_planner_node.search.statistics import Statistics
 
-MOST_ADVISED = 1000
 # Requests that are in flight at the same time.
 MOST_TOGETHER = 8
 
@@ -38,7 +38,7 @@ class Nogood:
 class Request:
     """What the motion planner is asked: the ground texts of an operator, from where the robots stand.
 
-    ``lineage`` is the attitude that was last assigned.
+    ``lineage`` is the attitude that was last assigned, ``preferred`` the one to end at where that can be.
     """
 
     task: Task
@@ -46,6 +46,7 @@ class Request:
     behaviour: str
     start: Token
     lineage: Token
+    preferred: Token | None = None
 
     @property
     def key(self) -> str:
@@ -55,7 +56,9 @@ class Request:
 
 def _query(request: Request, alternative: int) -> Query:
     action = tuple(show(part) for part in request.task)
-    return Query(action, request.text, request.start, alternative, request.behaviour)
+    return Query(
+        action, request.text, request.start, alternative, request.behaviour, request.preferred
+    )
 
 
 class RequestRefused(Exception):
@@ -95,9 +98,8 @@ class Geometry:
         self._statistics = statistics
         self._max_alternatives = max_alternatives
         self._check_limits = check_limits
-        self._answers: dict[tuple[str, Token, int], Answer] = {}
+        self._answers: dict[tuple[str, Token, int, Token | None], Answer] = {}
         self._nogoods: dict[tuple[Scope, Token, str], Nogood] = {}
-        self._ranks: dict[Token, dict[str, int]] = {}
         self._bounds: dict[Token, dict[str, float]] = {}
 
     def nogood(self, request: Request) -> Nogood | None:
@@ -123,8 +125,14 @@ class Geometry:
     def alternatives(self, request: Request) -> Iterator[Answer]:
         """One answer after the other: FOUND ones, ended by the first of another status.
 
-        An assigned attitude is the only one.  The generator also ends at the limit of alternatives.
+        An assigned attitude is the only one.  The generator also ends at the limit of alternatives.  After the one
+        that ends as preferred come all those that there are without a preference.
         """
+        if request.preferred is not None:
+            answer = self._ask(request, 0)
+            if answer.status == Status.FOUND and answer.as_preferred:
+                yield answer
+            request = replace(request, preferred=None)
         for alternative in range(self._max_alternatives):
             answer = self._ask(request, alternative)
             yield answer
@@ -132,7 +140,7 @@ class Geometry:
                 return
 
     def _ask(self, request: Request, alternative: int) -> Answer:
-        key = (request.key, request.start, alternative)
+        key = (request.key, request.start, alternative, request.preferred)
         cached = self._answers.get(key)
         if cached is not None:
             return cached
@@ -154,7 +162,7 @@ class Geometry:
         """
         if not isinstance(self._oracle, BatchOracle):
             return
-        wanted = {(r.key, r.start, 0): r for r in requests if self.nogood(r) is None}
+        wanted = {(r.key, r.start, 0, None): r for r in requests if self.nogood(r) is None}
         missing = [key for key in wanted if key not in self._answers][:MOST_TOGETHER]
         if len(missing) < 2:
             return
@@ -180,7 +188,15 @@ class Geometry:
             self._statistics.impossible += 1
             if alternative == 0:
                 self._learn(request, answer.scope, answer.message, answer.objects)
-        self._answers[request.key, request.start, alternative] = answer
+        key, start, preferred = request.key, request.start, request.preferred
+        self._answers[key, start, alternative, preferred] = answer
+        if preferred is not None and not answer.as_preferred:
+            # As without a preference.
+            self._answers.setdefault((key, start, alternative, None), answer)
+        elif answer.attitude is not None and not answer.assigned:
+            # Whoever prefers to end there has the motion already.
+            there = replace(answer, as_preferred=True)
+            self._answers.setdefault((key, start, 0, answer.attitude), there)
 
     def _learn(self, request: Request, scope: Scope, reason: str, objects: tuple[str, ...]) -> None:
         place = {
@@ -196,35 +212,17 @@ class Geometry:
         """What advice said that motions from ``start`` cost at least [m], by ground text."""
         return self._bounds.get(start, {})
 
-    def ranks(
-        self, start: Token, lineage: Token, texts: Sequence[str], ask: bool
-    ) -> dict[str, int]:
-        """Advised places of ground texts, the lowest to try first; asked for where one is not known.
-
-        With ``ask`` False only what is known already counts.  Texts that the motion planner cannot work on come
-        first of all, so that their fault is told at once.
-        """
-        known = self._ranks.setdefault(start, {})
-        wanted = list(dict.fromkeys(texts))[:MOST_ADVISED]
-        if not ask or len(wanted) < 2 or all(text in known for text in wanted):
-            return known
+    def advise(self, query: AdviceQuery, lineage: Token) -> Advice:
+        """Advice of any purpose; what it says to be impossible is learnt, and its lower bounds are kept."""
         self._check_limits()
         began = time.monotonic()
-        advice = self._oracle.advise(start, wanted)
+        advice = self._oracle.advise(query)
         self._statistics.exchanged(time.monotonic() - began, advice.time_spent)
         self._statistics.advices += 1
-        bounds = self._bounds.setdefault(start, {})
-        for text, candidate in zip(wanted, advice.candidates, strict=False):
+        bounds = self._bounds.setdefault(query.start, {})
+        for text, candidate in zip(query.preconditions, advice.candidates, strict=False):
             bounds[text] = candidate.lower_bound
-            request = Request((), text, '', start, lineage)
+            request = Request((), text, '', query.start, lineage)
             if candidate.impossible and self.nogood(request) is None:
                 self._learn(request, candidate.scope, candidate.message, candidate.objects)
-        order = [index for index in advice.order if 0 <= index < len(wanted)]
-        known.clear()
-        known.update({text: len(wanted) for text in wanted})
-        known.update({wanted[index]: place for place, index in enumerate(order)})
-        faulty = [
-            t for t, c in zip(wanted, advice.candidates, strict=False) if c.code in INVALID_CODES
-        ]
-        known.update(dict.fromkeys(faulty, -1))
-        return known
+        return advice

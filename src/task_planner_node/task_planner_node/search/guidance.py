@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from task_planner_node.errors import MissionError
 from task_planner_node.search.domain import CompiledDomain
 from task_planner_node.search.geometry import Request
 from task_planner_node.search.network import Network, Task, first_cells, replace
@@ -17,10 +18,23 @@ def leading_request(
 ) -> Request | None:
     """What would be asked of the motion planner first if ``network`` were done now.
 
-    Methods are followed by their first applicable branch and binding; operators without geometric
-    preconditions are passed over without their effects.  None when that leads to no motion.  It is a
-    guess that only serves to order choices.
+    Methods are followed by their first applicable branch and binding, operators without geometric preconditions by
+    the first way to apply them, if there is one.  None when that leads to no motion.  It is a guess that only serves
+    to order choices; the state is left as it was.
     """
+    mark = state.mark()
+    try:
+        return _leading(domain, state, network, where)
+    except MissionError:
+        # It is told when the search comes to it.
+        return None
+    finally:
+        state.undo(mark)
+
+
+def _leading(
+    domain: CompiledDomain, state: State, network: Network, where: Whereabouts
+) -> Request | None:
     for _ in range(MOST_STEPS):
         if network is None:
             return None
@@ -39,6 +53,9 @@ def leading_request(
                     text = operator.text(frame)
                     return Request(doing, text, behaviour, where.start, where.lineage)
                 return None
+            for _ in operator.condition.solutions(state, frame):
+                operator.apply(state, frame)
+                break
             grown = first[1]
         else:
             found = _first_decomposition(domain, state, doing, first[1])

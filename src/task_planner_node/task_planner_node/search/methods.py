@@ -39,7 +39,7 @@ class CompiledBranch:
     ``numbers`` counts the method among those for the same task and the branch in the method, from 1.
     ``tasks`` are the names of its tasks in the order of the text; ``loose`` tells whether these may have arguments
     without a value, ``sorted`` whether the order of its solutions is asked for.
-    ``early`` is what a solution of the condition has to meet so that the tasks can be done.
+    ``early`` is what a solution of the condition has to meet so that the tasks can be done; ``network`` is the text's.
     """
 
     method: str
@@ -51,6 +51,7 @@ class CompiledBranch:
     loose: bool
     sorted: bool
     early: Conjunction | None
+    network: TaskNetwork
 
     @property
     def label(self) -> str:
@@ -100,6 +101,7 @@ def compile_method(
                 network.loose,
                 _is_sorted(branch.condition),
                 _early(early.literals(branch), compiler, slots, head.bound, bound),
+                branch.tasks,
             )
         )
     return CompiledMethod(head.binder(), head, tuple(branches))
@@ -215,7 +217,7 @@ def _ordered(parts: Sequence[Grow]) -> Grow:
 def _partial(parts: Sequence[Grow], pairs: Sequence[tuple[int, int]]) -> Grow:
     labels = range(len(parts))
     before = {
-        label: frozenset(first for first, later in _closure(pairs) if later == label)
+        label: frozenset(first for first, later in closure(pairs) if later == label)
         for label in labels
     }
 
@@ -226,7 +228,7 @@ def _partial(parts: Sequence[Grow], pairs: Sequence[tuple[int, int]]) -> Grow:
     return grow
 
 
-def _closure(pairs: Sequence[tuple[int, int]]) -> set[tuple[int, int]]:
+def closure(pairs: Sequence[tuple[int, int]]) -> set[tuple[int, int]]:
     """All pairs that follow from ``pairs``: a branch that is done leaves the order of the others as it was."""
     closed = set(pairs)
     after: dict[int, set[int]] = {}

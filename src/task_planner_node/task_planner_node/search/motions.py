@@ -78,7 +78,8 @@ class Motions:
         task = cell[0]
         text = operator.text(frame) if operator.text else ''
         behaviour = operator.behaviour(frame) if operator.behaviour else ''
-        request = Request(task, text, behaviour, where.start, where.lineage)
+        preferred = where.tour.end(text) if where.tour is not None else None
+        request = Request(task, text, behaviour, where.start, where.lineage, preferred)
         nogood = geometry.nogood(request)
         if nogood is not None:
             dead_ends.add(task, 'geometric', nogood.reason, nogood.objects)
@@ -116,9 +117,10 @@ class Motions:
         expansion.motion = Motion(price, request.text, where.start, answer)
         lineage = answer.end if answer.assigned else where.lineage
         met = where.met | {request.text} if self._optimise else where.met
+        tour = where.tour.after(request.text, answer) if where.tour is not None else None
         return (
             replace(network, path, cell[1], to_front=True) if path else cell[1],
-            Whereabouts(answer.end, lineage, where.length + answer.length, met),
+            Whereabouts(answer.end, lineage, where.length + answer.length, met, tour),
             cost + price + answer.length,
             rest_cost - operator.least_cost,
             actions if operator.internal else actions + 1,

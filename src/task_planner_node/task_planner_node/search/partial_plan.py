@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from task_planner_node.oracle import Answer, Token
+from task_planner_node.oracle import Answer, Purpose, Token
 from task_planner_node.search.methods import CompiledBranch
 from task_planner_node.search.network import Cell, Network, Path, Task
 from task_planner_node.search.operators import CompiledOperator
+from task_planner_node.search.tours import Following
 from task_planner_node.search.unbound import Values
 
 
@@ -53,13 +54,14 @@ class Whereabouts:
     """Where the robots stand, and how far [m] they went.
 
     ``lineage`` is the attitude that was last assigned; ``met`` are the geometric preconditions that were met so far,
-    when optimising.
+    when optimising; ``tour`` is the one that is followed.
     """
 
     start: Token
     lineage: Token
     length: float
     met: frozenset[str] = frozenset()
+    tour: Following | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,10 +123,14 @@ class Limits:
     """How far a search may go, and what it is after.
 
     ``max_depth`` counts the decompositions and actions of one plan.  ``plans`` is how many plans are wanted: the
-    first ones, or the cheapest ones with ``optimise``.
+    first ones, or the cheapest ones with ``optimise``.  ``purpose`` says which order of tasks advice is asked for.
+    ``most_requests`` and ``most_backtracks`` are how much a search may take before it gives up.
     """
 
     max_depth: int = 1_000_000
     optimise: bool = False
     use_advice: bool = True
     plans: int = 1
+    purpose: Purpose = Purpose.SHORTEST_TOUR
+    most_requests: int | None = None
+    most_backtracks: int | None = None

@@ -115,12 +115,19 @@ def _step(expansion: Expansion, operator: CompiledOperator, values: Values) -> S
 class Plans:
     """The plans that are wanted, as far as they are found; ``found`` hears each that is kept.
 
-    When optimising, ``bound`` is the cost that another plan has to stay below.
+    When optimising, ``bound`` is the cost that another plan has to stay below; with ``first`` one such plan is enough.
     """
 
-    def __init__(self, limits: Limits, found: Callable[[Plan], None]) -> None:
+    def __init__(
+        self,
+        limits: Limits,
+        found: Callable[[Plan], None],
+        bound: float = inf,
+        first: bool = False,
+    ) -> None:
         self.kept: list[Plan] = []
-        self.bound = inf
+        self.bound = bound
+        self._first = first
         self._limits = limits
         self._found = found
 
@@ -132,15 +139,20 @@ class Plans:
     @property
     def enough(self) -> bool:
         """Whether no further plan is wanted."""
+        if self._first:
+            return bool(self.kept)
         return not self._limits.optimise and len(self.kept) >= self._limits.plans
 
     def add(self, log: Sequence[Expansion], history: History, length: float, cost: float) -> None:
+        """Keep a plan that the search came to."""
+        self.keep(Plan(tuple(log), history, cost, length))
+
+    def keep(self, plan: Plan) -> None:
         """Keep a plan, unless one with the same actions is kept already or it is too expensive."""
-        plan = Plan(tuple(log), history, cost, length)
         wanted = self._limits.plans
         for kept in self.kept if wanted > 1 else ():
             if kept.actions == plan.actions:
-                if kept.cost <= cost or not self._limits.optimise:
+                if kept.cost <= plan.cost or not self._limits.optimise:
                     return
                 self.kept.remove(kept)
                 break
@@ -152,4 +164,12 @@ class Plans:
         else:
             self.kept.append(plan)
         if plan in self.kept:
+            self._found(plan)
+
+    def improve(self, plan: Plan) -> None:
+        """Keep a plan that is better than the best one."""
+        if self._limits.optimise:
+            self.keep(plan)
+        else:
+            self.kept[0] = plan
             self._found(plan)

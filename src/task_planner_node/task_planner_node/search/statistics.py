@@ -18,6 +18,8 @@ class Statistics:
     decompositions: int = 0
     backtracks: int = 0
     geometric_backtracks: int = 0
+    improvements: int = 0
+    opportunities: int = 0
     planning_time: float = 0.0
     request_time: float = 0.0
     transport_time: float = 0.0

@@ -15,6 +15,7 @@ EXAMPLES = """\
 examples:
   geohtn plan rover
   geohtn plan my_mission --namespace team_a --seed 7
+  geohtn plan rover --guidance nearest_first
 """
 #: [s] from the start of the command; with what it takes to end, an error comes within 5 s.
 _PATIENCE = 4.2

@@ -25,6 +25,7 @@ examples:
   geohtn run my_mission --output results    domain.lisp, problem.lisp, world.yaml in my_mission
   geohtn run rover --world other.yaml --seed 7
   geohtn run rover --optimise --time-budget 20
+  geohtn run rover --guidance nearest_first
 """
 
 

@@ -1,0 +1,108 @@
+"""A first plan, then better ones as long as some are found, then the cheapest."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from task_planner_node.language.model import TaskNetwork
+from task_planner_node.oracle import Purpose, Token
+from task_planner_node.search.domain import CompiledDomain, Start
+from task_planner_node.search.engine import Search
+from task_planner_node.search.geometry import Geometry
+from task_planner_node.search.improving import Improvement
+from task_planner_node.search.partial_plan import Limits
+from task_planner_node.search.plans import Plan, Plans
+from task_planner_node.search.state import State
+from task_planner_node.search.statistics import Statistics
+from task_planner_node.search.tours import Following, Tour
+
+
+class Anytime:
+    """The searches of one mission, all with the same memory of answers.
+
+    ``search`` is the one that tells whether there is a plan, ``running`` the one that runs and ``state`` its facts.
+    With ``root``, the tasks of the problem, plans are improved along the motion planner's proposals.
+    """
+
+    def __init__(
+        self,
+        domain: CompiledDomain,
+        beginning: Start,
+        root: TaskNetwork | None,
+        state: State,
+        geometry: Geometry,
+        statistics: Statistics,
+        limits: Limits,
+        plans: Plans,
+        check: Callable[[], None],
+    ) -> None:
+        self._domain = domain
+        self._beginning = beginning
+        self._root = root
+        self._geometry = geometry
+        self._statistics = statistics
+        self._limits = limits
+        self._plans = plans
+        self._check = check
+        self.state = state
+        self._improves = (
+            root is not None
+            and domain.geometric
+            and limits.use_advice
+            and limits.purpose == Purpose.SHORTEST_TOUR
+            and (limits.optimise or limits.plans == 1)
+        )
+        first = replace(limits, optimise=False, plans=1) if self._improves else limits
+        into = Plans(first, plans.keep) if self._improves else plans
+        self.search = self.running = self._search(first, into)
+
+    def run(self, start: Token) -> None:
+        """Search; the plans are left in ``plans``.  Raises what Search.run raises."""
+        self.search.run(start)
+        if not self._improves or self._plans.best is None:
+            return
+        root = self._root
+        assert root is not None
+
+        def follow(tour: Tour, limits: Limits, bound: float) -> Plan | None:
+            return self._follow(start, tour, limits, bound)
+
+        improvement = Improvement(
+            self._domain,
+            root,
+            self._geometry,
+            self._statistics,
+            self._plans,
+            self._limits,
+            follow,
+        )
+        if not self._limits.optimise:
+            improvement.take_opportunities()
+            return
+        improvement.rounds()
+        self.state = self.state.initial()
+        # What bounds the rest of a plan is known wherever the nearest motions were asked for.
+        nearest = replace(self._limits, purpose=Purpose.NEAREST_FIRST)
+        self.search = self.running = self._search(nearest, self._plans)
+        self.search.run(start)
+
+    def _search(self, limits: Limits, plans: Plans) -> Search:
+        return Search(
+            self._domain,
+            self._beginning,
+            self.state,
+            self._geometry,
+            self._statistics,
+            limits,
+            self._check,
+            plans,
+        )
+
+    def _follow(self, start: Token, tour: Tour, limits: Limits, bound: float) -> Plan | None:
+        """The first plan along a tour that costs less than ``bound``."""
+        self.state = self.state.initial()
+        plans = Plans(limits, lambda _: None, bound, first=True)
+        self.running = self._search(limits, plans)
+        self.running.run(start, Following(tour))
+        return plans.best
