@@ -28,6 +28,7 @@ class Options:
     """How a mission is searched; ``time_budget`` in seconds, ``plans`` is how many are wanted.
 
     ``memory_limit`` [MiB] is what the search may take beyond what the process holds at its beginning.
+    With ``linear_matching`` no fact is looked up in an index (search/linear.py): for measuring what that costs.
     """
 
     time_budget: float = 60.0
@@ -37,6 +38,7 @@ class Options:
     use_advice: bool = True
     plans: int = 1
     memory_limit: int = 4096
+    linear_matching: bool = False
 
 
 @dataclass(frozen=True, slots=True)
