@@ -23,7 +23,7 @@ from task_planner_node.search.terms import ListPattern
 
 TOYS = sorted((Path(__file__).parents[1] / 'domains' / 'toys').glob('*.lisp'))
 CASES = [
-    (toy, name) for toy in TOYS for name in re.findall(r'^;; plan (\S+):', toy.read_text(), re.M)
+    (toy, name) for toy in TOYS for name in re.findall(r'^;; plan (\S+):', toy.read_text(), re.MULTILINE)
 ]
 VALUES = ('a', 'b', ('a', 'b'), ('b',))
 FACTS = [('p', *pair) for pair in itertools.product(VALUES, repeat=2)]
@@ -75,12 +75,12 @@ def test_a_literal_has_the_solutions_of_an_index_in_its_order(
 
 @pytest.mark.parametrize(('toy', 'name'), CASES, ids=[f'{t.stem}-{n}' for t, n in CASES])
 def test_a_toy_has_the_same_plans(no_motion_planner: Oracle, toy: Path, name: str) -> None:
-    def solve(linear_matching: bool) -> Result:
+    def solve(*, linear_matching: bool) -> Result:
         options = Options(linear_matching=linear_matching, plans=3)
         planner = Planner(no_motion_planner, options)
         return planner.plan(MissionText(str(toy)), MissionText(f'{toy}#{name}'))
 
-    indexed, compared = solve(False), solve(True)
+    indexed, compared = solve(linear_matching=False), solve(linear_matching=True)
     assert compared.outcome == indexed.outcome
     assert [plan.actions for plan in compared.plans] == [plan.actions for plan in indexed.plans]
 
