@@ -28,7 +28,7 @@ Trials = dict[tuple[str, str], list[Trial]]
 class Sizes:
     """How much is measured.
 
-    goals: numbers of goals; few: those with which the variants are tried as well
+    goals: numbers of goals; few: those with which indexed symbolic search and the variants are tried
     sets: random sets of goals for each number
     limit: [s] of processor time after which a search is given up
     """
@@ -39,8 +39,8 @@ class Sizes:
     limit: float
 
 
-FULL = Sizes(tuple(range(1, 16)), (1, 8, 15), 20, 3.0)
-QUICK = Sizes((1, 3), (1, 3), 2, 3.0)
+FULL = Sizes(tuple(range(1, 16)), (1, 8, 15), 20, 2.0)
+QUICK = Sizes((1, 3), (1, 3), 2, 2.0)
 
 
 def measure(sizes: Sizes, seed: int, folder: Path) -> Part:

@@ -51,16 +51,13 @@ class Method:
         return f'{self.name}, {"linear" if self.linear else "indexed"}'
 
 
-PAPER_METHODS = tuple(
-    method
-    for linear in (True, False)
-    for method in (
-        Method('blind', BLIND, linear),
-        Method('nearest first', NEAREST, linear),
-        Method('hybrid', HYBRID, linear, ways=False),
-    )
-)
-OTHERS = (
+METHODS = (
+    Method('blind', BLIND, linear=True),
+    Method('nearest first', NEAREST, linear=True),
+    Method('hybrid', HYBRID, linear=True, ways=False),
+    Method('blind', BLIND, linear=False, everywhere=False),
+    Method('nearest first', NEAREST, linear=False, everywhere=False),
+    Method('hybrid', HYBRID, linear=False, ways=False),
     Method('blind, objective in sight first', SIGHTED, linear=True, everywhere=False),
     Method('blind, circles left to the search', UNMARKED, linear=True, everywhere=False),
 )
@@ -192,11 +189,11 @@ def run_paper_methods(
 ) -> Iterator[Trial]:
     """All methods on all sets, in turns; what is loaded at first is not counted."""
     with quiet_collector():
-        for method in (*PAPER_METHODS, *OTHERS):
+        for method in METHODS:
             bench.trial(method, goals[0], sets)
         for number in range(sets):
             for count in goals:
-                for method in (*PAPER_METHODS, *OTHERS):
+                for method in METHODS:
                     if method.everywhere or count in few:
                         yield bench.trial(method, count, number)
 
