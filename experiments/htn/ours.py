@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import gc
 from dataclasses import dataclass
+from math import inf
 from time import process_time
 
 from experiments.htn.public_domains import NoMotionPlanner
 from task_planner_node.mission import MissionText
+from task_planner_node.oracle import Oracle, Token
 from task_planner_node.outcomes import Options, Outcome, Progress, Result
 from task_planner_node.planner import Planner
 
@@ -31,16 +33,29 @@ class Run:
         return self.decompositions / self.searching
 
 
-def plan(domain: str, problem: str, options: Options | None = None) -> Run:
-    """Plan once."""
+def plan(
+    domain: str,
+    problem: str,
+    options: Options | None = None,
+    oracle: Oracle | None = None,
+    start: Token = (),
+    limit: float = inf,
+) -> Run:
+    """Plan once, with ``oracle`` to answer geometric requests; cancelled after ``limit`` [s] of processor time."""
     times: dict[str, float] = {}
 
     def note(progress: Progress) -> None:
         times.setdefault(progress.phase, process_time())
 
-    planner = Planner(NoMotionPlanner(), options or Options(time_budget=600.0), report=note)
     gc.collect()
-    result = planner.plan(MissionText('domain', domain), MissionText('problem', problem))
+    end = process_time() + limit
+    planner = Planner(
+        oracle or NoMotionPlanner(),
+        options or Options(time_budget=600.0),
+        lambda: process_time() > end,
+        note,
+    )
+    result = planner.plan(MissionText('domain', domain), MissionText('problem', problem), start)
     searching = times.get('searching', times['writing'])
     return Run(result, searching - times['loading'], times['writing'] - searching)
 

@@ -74,9 +74,12 @@ def _attempt(errors: list[Diagnostic], read: Callable[[], T]) -> T | None:
         return None
 
 
-def check_and_compile(domain: Domain, problem: Problem, oracle: Oracle) -> Mission:
+def check_and_compile(
+    domain: Domain, problem: Problem, oracle: Oracle, linear: bool = False
+) -> Mission:
     """Check a mission, its geometric preconditions by ``oracle``, and compile it.
 
+    With ``linear`` facts are matched one after the other, and not looked up (search/linear.py).
     Raises MissionError with all diagnostics when one of them is an error, and GeometryUnavailable.
     """
     diagnostics = check_mission(domain, problem)
@@ -95,7 +98,9 @@ def check_and_compile(domain: Domain, problem: Problem, oracle: Oracle) -> Missi
             raise
     if _has_errors(diagnostics):
         raise MissionError(diagnostics)
-    return Mission(CompiledDomain(domain, frozenset(assigning)), problem, tuple(diagnostics))
+    return Mission(
+        CompiledDomain(domain, frozenset(assigning), linear), problem, tuple(diagnostics)
+    )
 
 
 def _has_errors(diagnostics: Sequence[Diagnostic]) -> bool:

@@ -30,6 +30,7 @@ class Options:
 
     ``guidance`` is the order of tasks that advice is asked for.
     ``memory_limit`` [MiB] is what the search may take beyond what the process holds at its beginning.
+    With ``linear_matching`` no fact is looked up in an index (search/linear.py): for measuring what that costs.
     """
 
     time_budget: float = 60.0
@@ -39,7 +40,11 @@ class Options:
     use_advice: bool = True
     plans: int = 1
     memory_limit: int = 4096
+<<<<<<< HEAD
     guidance: Guidance = 'tour'
+=======
+    linear_matching: bool = False
+>>>>>>> figures
 
 
 @dataclass(frozen=True, slots=True)

@@ -101,6 +101,7 @@ class Planner:
         except GeometryFailed as error:
             outcome, explanation = Outcome.FAILED, str(error)
         self._statistics.planning_time = time.monotonic() - self._began
+        self._statistics.work = self._state.work if self._state else 0
         self._say('writing', force=True)
         kept = self._plans.kept if self._plans else ()
         plans = tuple(kept) if outcome == Outcome.SOLVED else ()
@@ -118,7 +119,7 @@ class Planner:
         domain, problem = read_mission(domain_text, problem_text)
         self._domain, self._problem = domain, problem
         self._say('checking', force=True)
-        mission = check_and_compile(domain, problem, self._oracle)
+        mission = check_and_compile(domain, problem, self._oracle, self._options.linear_matching)
         facts = [(fact.name, *fact.args) for fact in problem.facts]
         beginning: Start = mission.domain.beginning(problem)
         if interrupted is not None:

@@ -24,7 +24,7 @@ from task_planner_node.language.model import (
     SortBy,
     Stated,
 )
-from task_planner_node.search import logic
+from task_planner_node.search import linear, logic
 from task_planner_node.search.conditions import Begin, Conjunction, Goal, disjunction, negation
 from task_planner_node.search.description import describer
 from task_planner_node.search.literals import Look, enumerating, membership
@@ -44,10 +44,14 @@ class Predicate(Protocol):
 
 @dataclass
 class Compiler:
-    """What compiled conditions of one domain share; ``axioms`` is filled in before any condition is compiled."""
+    """What compiled conditions of one domain share; ``axioms`` is filled in before any condition is compiled.
+
+    With ``linear`` the literals of predicates without axioms are matched with one fact after the other.
+    """
 
     plan: IndexPlan = field(default_factory=IndexPlan)
     axioms: dict[tuple[str, int], Predicate] = field(default_factory=dict)
+    linear: bool = False
 
     def condition(
         self, condition: Condition, slots: Slots, bound: set[int], maybe: Iterable[int] = ()
@@ -148,6 +152,8 @@ class Scope:
         predicate = self.compiler.axioms.get((atom.name, len(terms)))
         if predicate is not None:
             begin = predicate.goal(terms, self.bound)
+        elif self.compiler.linear:
+            begin = self._linear(atom, terms)
         elif self._is_bound(atom):
             begin = membership(builder([self.slots.constant(atom.name), *terms]))
         else:
@@ -157,16 +163,24 @@ class Scope:
             self.binding(slots_of(term))
         return begin
 
+    def _linear(self, atom: Atom, terms: Sequence[Compiled]) -> Begin:
+        look = Look(atom.name, terms, self.bound, self.maybe)
+        find = linear.presence if self._is_bound(atom) else linear.enumerating
+        return find(look, self.compiler.plan)
+
     def _negation(self, condition: Condition) -> Begin:
         if isinstance(condition, Atom) and (condition.name, len(condition.args)) not in (
             self.compiler.axioms
         ):
             terms = self._terms(condition)
-            if self._is_bound(condition):
+            look = Look(condition.name, terms, self.bound, self.maybe)
+            if self.compiler.linear:
+                absent = linear.absence(look, self.compiler.plan)
+            elif self._is_bound(condition):
                 fact = builder([self.slots.constant(condition.name), *terms])
                 return lambda state, frame: state.relaxed or fact(frame) not in state.facts
-            look = Look(condition.name, terms, self.bound, self.maybe)
-            absent = look.absence(self.compiler.plan)
+            else:
+                absent = look.absence(self.compiler.plan)
             if absent is not None:
                 return absent
         return negation(self.inner().conjunction([condition]))

@@ -72,7 +72,7 @@ class Beginning:
 
 
 class CompiledDomain:
-    """All definitions by name.
+    """All definitions by name; ``linear`` is the Compiler's.
 
     ``assigning`` names the operators whose geometric preconditions set an attitude.  ``geometric`` tells whether any
     operator has geometric preconditions, ``immediate`` whether any task has priority, ``loose`` whether tasks may
@@ -80,9 +80,11 @@ class CompiledDomain:
     ``may_assign`` those below which an attitude may be set; ``least_costs`` are lower bounds of the cost of tasks by name.
     """
 
-    def __init__(self, domain: Domain, assigning: frozenset[str] = frozenset()) -> None:
+    def __init__(
+        self, domain: Domain, assigning: frozenset[str] = frozenset(), linear: bool = False
+    ) -> None:
         self._domain = domain
-        self._compiler = compiler = Compiler()
+        self._compiler = compiler = Compiler(linear=linear)
         self._assigning = assigning
         self._early = Early(domain)
         effects = [e for o in domain.operators for e in (*o.deletes, *o.adds)]

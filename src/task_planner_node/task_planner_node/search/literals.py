@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
 from task_planner_node.search.conditions import Begin, Found
@@ -15,6 +15,9 @@ from task_planner_node.search.terms import (
     match,
     slots_of,
 )
+
+# The free parts of a literal, each with how to get it from a fact.
+Free = Sequence[tuple[Callable[[Fact], Any], Compiled]]
 
 
 def membership(fact: Callable[[Frame], Fact]) -> Begin:
@@ -112,7 +115,7 @@ class Look:
 
         return assign_parts
 
-    def free(self) -> list[tuple[Callable[[Fact], Any], Compiled]]:
+    def free(self) -> Free:
         """The parts that are matched, with how to get them from a fact."""
         return [(at(path), term) for path, term in self._free]
 
@@ -142,36 +145,38 @@ def _assigning(
             return True
         if not count:
             return False
-        return solutions(frame, state.living(bucket) if dead else iter(bucket))
-
-    def solutions(frame: Frame, facts: Iterator[Fact]) -> Iterator[None]:
-        for fact in facts:
-            assign(frame, fact)
-            yield
+        return assigned(assign, frame, state.living(bucket) if dead else iter(bucket))
 
     return begin
 
 
-def _matching(
-    number: int,
-    key: Callable[[Frame], Any],
-    free: Sequence[tuple[Callable[[Fact], Any], Compiled]],
-) -> Begin:
+def _matching(number: int, key: Callable[[Frame], Any], free: Free) -> Begin:
     """Look-up with patterns, repeated variables, or variables that may be bound."""
 
     def begin(state: State, frame: Frame) -> Found:
         bucket = state.buckets[number].get(key(frame))
         if bucket is None or len(bucket) == bucket.dead:
             return False
-        return solutions(state, frame, state.living(bucket))
-
-    def solutions(state: State, frame: Frame, facts: Iterator[Fact]) -> Iterator[None]:
-        for fact in facts:
-            state.work += 1
-            bound: list[int] = []
-            if all(match(term, part(fact), frame, bound) for part, term in free):
-                yield
-            for slot in bound:
-                frame[slot] = None
+        return matched(free, state, frame, state.living(bucket))
 
     return begin
+
+
+def assigned(
+    assign: Callable[[Frame, Fact], None], frame: Frame, facts: Iterable[Fact]
+) -> Iterator[None]:
+    """Bind the free parts to those of one fact after the other."""
+    for fact in facts:
+        assign(frame, fact)
+        yield
+
+
+def matched(free: Free, state: State, frame: Frame, facts: Iterable[Fact]) -> Iterator[None]:
+    """Match the free parts with those of one fact after the other."""
+    for fact in facts:
+        state.work += 1
+        bound: list[int] = []
+        if all(match(term, part(fact), frame, bound) for part, term in free):
+            yield
+        for slot in bound:
+            frame[slot] = None

@@ -7,7 +7,10 @@ from dataclasses import dataclass
 
 @dataclass(slots=True)
 class Statistics:
-    """The counters of geohtn_msgs/PlanningStatistics; times in seconds of wall clock."""
+    """The counters of geohtn_msgs/PlanningStatistics; times in seconds of wall clock.
+
+    ``work`` are the goals of conditions that were tried, and the facts that were compared one by one.
+    """
 
     requests: int = 0
     answers: int = 0
@@ -20,6 +23,7 @@ class Statistics:
     geometric_backtracks: int = 0
     improvements: int = 0
     opportunities: int = 0
+    work: int = 0
     planning_time: float = 0.0
     request_time: float = 0.0
     transport_time: float = 0.0

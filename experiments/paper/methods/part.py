@@ -1,0 +1,121 @@
+"""Figures 6 and 7: three methods on problems of growing size, and the whole hybrid as a fourth."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+from pathlib import Path
+
+from experiments.paper.methods.graphs import Graph, literal_graph, rover_world, visibility_graph
+from experiments.paper.methods.pictures import draw_figure_6, draw_figure_7, draw_graphs
+from experiments.paper.methods.summary import Comparison, compare
+from experiments.paper.methods.text import claims_of, text_of
+from experiments.paper.methods.trials import (
+    Bench,
+    Trial,
+    run_attitudes,
+    run_paper_methods,
+)
+from experiments.paper.part import Part, write_csv
+from experiments.results import Target
+
+#: The paper's 50 s against 4 s for an added goal.
+SLOPE_RATIO = 12.0
+Trials = dict[tuple[str, str], list[Trial]]
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """How much is measured.
+
+    goals: numbers of goals; few: those with which indexed symbolic search and the variants are tried
+    sets: random sets of goals for each number
+    limit: [s] of processor time after which a search is given up
+    """
+
+    goals: tuple[int, ...]
+    few: tuple[int, ...]
+    sets: int
+    limit: float
+
+
+FULL = Sizes(tuple(range(1, 16)), (1, 8, 15), 20, 2.0)
+QUICK = Sizes((1, 3), (1, 3), 2, 2.0)
+
+
+def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
+    """Run all methods on both readings of the graph."""
+    world = rover_world()
+    dense = visibility_graph(world)
+    graphs = dense, literal_graph(dense, world, seed)
+    trials: Trials = defaultdict(list)
+    for graph in graphs:
+        bench = Bench(graph, seed, sizes.limit)
+        for trial in run_paper_methods(bench, sizes.goals, sizes.few, sizes.sets):
+            trials[trial.graph, trial.method].append(trial)
+    bench = Bench(dense, seed, sizes.limit)
+    for trial in run_attitudes(bench, world, sizes.goals, sizes.sets):
+        trials[trial.graph, trial.method].append(trial)
+    write_csv(
+        folder / 'trials.csv',
+        list(Trial.__dataclass_fields__),
+        [trial.row() for members in trials.values() for trial in members],
+    )
+    compared = comparisons(graphs, trials)
+    pictures = (
+        draw_graphs(graphs, world, folder / 'graphs'),
+        draw_figure_6(graphs, trials, folder / 'figure_6'),
+        draw_figure_7(graphs, trials, folder / 'figure_7'),
+    )
+    return Part(
+        'Three methods on problems of growing size (Figures 6 and 7)',
+        text_of(graphs, compared, sizes.sets, len(sizes.goals), sizes.limit),
+        {
+            'graphs': {
+                graph.name: {
+                    'vertices': len(graph.points),
+                    'joined': len(graph.joined),
+                    'arcs': len(graph.arcs),
+                }
+                for graph in graphs
+            },
+            'comparisons': [comparison.figures() for comparison in compared],
+        },
+        targets_of(compared, len(sizes.goals)),
+        claims_of(compared, len(sizes.goals)),
+        pictures,
+    )
+
+
+def comparisons(graphs: tuple[Graph, ...], trials: Trials) -> list[Comparison]:
+    """Each method beside the hybrid with the same matching, on each graph."""
+    found = []
+    for graph in graphs:
+        for (name, method), members in trials.items():
+            if name == graph.name:
+                matching = 'linear' if method.endswith('linear') else 'indexed'
+                found.append(compare(members, trials[name, f'hybrid, {matching}']))
+    return found
+
+
+def targets_of(compared: list[Comparison], sizes: int) -> list[Target]:
+    """At most a twelfth of the time for an added goal, and shorter ways for each number of goals."""
+    targets = []
+    for one in compared:
+        if one.method in ('blind, linear', 'nearest first, linear'):
+            name = f'{one.method}, {one.graph} graph'
+            targets += [
+                Target(
+                    f"time per added goal by the hybrid's, median: {name}",
+                    one.slope_ratio.median,
+                    SLOPE_RATIO,
+                    at_least=True,
+                ),
+                Target(
+                    f'numbers of goals for which the hybrid drives less: {name}',
+                    one.sizes_with_hybrid_shorter,
+                    sizes,
+                    at_least=True,
+                ),
+            ]
+    return targets

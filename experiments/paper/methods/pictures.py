@@ -1,0 +1,132 @@
+"""The graphs, and Figures 6 and 7 with the spread over sets of goals."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use('Agg')
+
+import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle as Disc
+from matplotlib.patches import Polygon as Outline
+
+from experiments.paper.methods.graphs import START, Graph
+from experiments.paper.methods.summary import by_size, spread
+from experiments.paper.methods.trials import ATTITUDES_NAME, Trial
+from motion_planner_node.world.model import Circle, Polygon, World
+
+COLOURS = {'blind': 'tab:blue', 'nearest first': 'tab:orange', 'hybrid': 'tab:green'}
+TITLES = {
+    'swapped': 'swapped reading: {} vertices, {} arcs',
+    'literal': 'literal reading: {} vertices, {} arcs',
+}
+
+
+def save(figure: Figure, stem: Path) -> Path:
+    """Write a figure as SVG and PNG, and return the latter's path."""
+    png = stem.with_suffix('.png')
+    figure.savefig(stem.with_suffix('.svg'))
+    figure.savefig(png, dpi=110)
+    plt.close(figure)
+    return png
+
+
+def title_of(graph: Graph) -> str:
+    """Which reading, and its numbers."""
+    return TITLES[graph.name].format(len(graph.points), len(graph.arcs))
+
+
+def draw_graphs(graphs: Sequence[Graph], world: World, stem: Path) -> Path:
+    """Both graphs among the obstacles."""
+    figure, panels = plt.subplots(1, len(graphs), figsize=(12.0, 5.0), layout='constrained')
+    for axes, graph in zip(panels, graphs, strict=True):
+        for obstacle in world.obstacles:
+            if isinstance(obstacle, Polygon):
+                axes.add_patch(Outline(obstacle.corners, color='0.35'))
+            elif isinstance(obstacle, Circle):
+                axes.add_patch(Disc(obstacle.center, obstacle.radius, color='0.35'))
+        lines = [(graph.points[a], graph.points[b]) for a, b in graph.arcs if a < b]
+        axes.add_collection(LineCollection(lines, colors='tab:blue', lw=0.4))
+        joined = set(graph.joined)
+        alone = [place for label, place in graph.points.items() if label not in joined]
+        if alone:
+            axes.plot(*zip(*alone, strict=True), '.', color='0.7', ms=2)
+        axes.plot(*zip(*(graph.points[label] for label in joined), strict=True), 'C0o', ms=4)
+        axes.plot(*graph.points[START], 'o', color='tab:green', ms=7)
+        bounds = world.bounds
+        axes.set(xlim=(bounds.x_min, bounds.x_max), ylim=(bounds.y_min, bounds.y_max))
+        axes.set(aspect='equal', xlabel='x [m]', ylabel='y [m]')
+        axes.set_title(title_of(graph), fontsize=10)
+    return save(figure, stem)
+
+
+def draw_figure_6(
+    graphs: Sequence[Graph], trials: Mapping[tuple[str, str], Sequence[Trial]], stem: Path
+) -> Path:
+    """Processor time by the number of goals."""
+    return _draw(
+        graphs, trials, stem, 'processor time of the search [s]', lambda trial: trial.seconds
+    )
+
+
+def draw_figure_7(
+    graphs: Sequence[Graph], trials: Mapping[tuple[str, str], Sequence[Trial]], stem: Path
+) -> Path:
+    """Distance by the number of goals."""
+    linear = {key: kept for key, kept in trials.items() if not key[1].endswith('indexed')}
+    return _draw(graphs, linear, stem, 'distance [m]', lambda trial: trial.length)
+
+
+def _draw(
+    graphs: Sequence[Graph],
+    trials: Mapping[tuple[str, str], Sequence[Trial]],
+    stem: Path,
+    label: str,
+    value: Callable[[Trial], float],
+) -> Path:
+    figure, panels = plt.subplots(
+        1, len(graphs), figsize=(12.0, 5.0), layout='constrained', sharey=True
+    )
+    for axes, graph in zip(panels, graphs, strict=True):
+        for (name, method), members in trials.items():
+            base = method.partition(', ')[0]
+            everywhere = base in COLOURS and method.count(',') == 1
+            if name == graph.name and (everywhere or method == ATTITUDES_NAME):
+                _band(axes, method, members, value)
+        axes.set(xlabel='goals', yscale='log')
+        axes.set_title(title_of(graph), fontsize=10)
+        axes.grid(alpha=0.3)
+    panels[0].set_ylabel(label)
+    panels[0].legend(fontsize=8)
+    return save(figure, stem)
+
+
+def _band(
+    axes: Axes, method: str, trials: Sequence[Trial], value: Callable[[Trial], float]
+) -> None:
+    """Median of the trials with a plan, and a band between their quartiles."""
+    sizes = by_size(trial for trial in trials if trial.solved)
+    spreads = [spread(value(trial) for trial in members) for members in sizes.values()]
+    colour = COLOURS.get(method.partition(', ')[0], 'tab:red')
+    dashed = method.endswith('indexed')
+    axes.plot(
+        list(sizes),
+        [each.median for each in spreads],
+        '--' if dashed else '-',
+        color=colour,
+        label=method,
+    )
+    axes.fill_between(
+        list(sizes),
+        [each.lower for each in spreads],
+        [each.upper for each in spreads],
+        color=colour,
+        alpha=0.1 if dashed else 0.25,
+        lw=0,
+    )
