@@ -6,11 +6,13 @@ import itertools
 import math
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from experiments.motion import reference
 from experiments.motion.aims import Aim, heading_error, in_goal
 from experiments.motion.asking import Outcome, ask, planner_for, request_of
 from experiments.motion.checking import Checker, constraints_of
@@ -201,17 +203,37 @@ def test_constraints_are_told_from_statements() -> None:
     )
 
 
-def test_references_are_read_as_written(tmp_path: Path) -> None:
-    solved = {'number': 3, 'kind': 'near', 'start': [1.0, 2.0, 3.0], 'text': '()', 'length': 4.0}
-    rows = [
-        {**solved, 'exhausted': True},
-        {**solved, 'number': 4, 'length': None, 'exhausted': True},
-        {**solved, 'number': 5, 'length': None, 'exhausted': False},
-    ]
-    write('rover', 1, rows, tmp_path)
-    again = read('rover', tmp_path)
-    assert [known.number for known in again.known] == [3]
-    assert (again.unsolved, again.unsearched) == ((4,), (5,))
+class Stub:
+    """Searches in no time: of four requests two are solved, one is in vain, one is broken off."""
+
+    def __init__(self, place: Place, seed: int) -> None:
+        self.seed = seed
+
+    def search(self, number: int) -> dict[str, Any]:
+        told = {'number': number, 'kind': 'near', 'start': [1.0, 2.0, 3.0], 'text': '()'}
+        length = [4.0, 5.5, None, None][number % 4]
+        return {**told, 'length': length, 'exhausted': number % 4 != 3, 'states': 1}
+
+
+def test_a_run_goes_on_from_what_is_kept_to_the_same_file(
+    places: Mapping[str, Place], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(reference, 'Searcher', Stub)
+
+    def run(count: int, folder: Path) -> bytes:
+        kept = reference.earlier('rover', 1, folder)
+        for found, _ in reference.make(places['rover'], count, kept, 1):
+            write(found, folder)
+        return (folder / 'rover.json.gz').read_bytes()
+
+    once = run(9, tmp_path / 'once')
+    broken_off = run(3, tmp_path / 'twice')
+    assert broken_off != once
+    assert run(9, tmp_path / 'twice') == once
+    again = read('rover', tmp_path / 'once')
+    assert [known.number for known in again.known] == [0, 1, 4, 5, 8, 9, 12, 13, 16]
+    assert (again.unsolved, again.unsearched) == ((2, 6, 10, 14), (3, 7, 11, 15))
+    assert reference.earlier('rover', 2, tmp_path / 'once').known == ()
 
 
 def test_the_usual_way_finds_longer_paths(

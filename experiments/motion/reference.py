@@ -2,7 +2,8 @@
 
 Run it with ``python -m experiments.motion.reference``: it searches each request exhaustively on the
 lattice of `lattice`, makes the best ways shorter by `polishing`, and keeps the results beside this
-file, in ``references/<world>.json.gz``. The experiment itself only reads them.
+file, in ``references/<world>.json.gz``. The experiment itself only reads them. A run that is
+broken off loses no more than the batch it is at: the next one goes on from there, to the same file.
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ import math
 import multiprocessing
 import os
 import time
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -29,8 +30,8 @@ from experiments.motion.worlds import ROOT, WORLDS, Place
 FOLDER = Path(__file__).resolve().parent / 'references'
 SEED = 1
 REQUESTS = 1000
-#: Requests that are handed to the processes at a time.
-BATCH = 40
+#: Requests that are searched before the results are written.
+BATCH = 8
 
 
 @dataclass(frozen=True)
@@ -53,6 +54,21 @@ class Reference:
     known: tuple[Known, ...]
     unsolved: tuple[int, ...]
     unsearched: tuple[int, ...]
+
+    @property
+    def tried(self) -> int:
+        """How many requests were searched: these are the first ones."""
+        return len(self.known) + len(self.unsolved) + len(self.unsearched)
+
+    def with_result(self, told: Mapping[str, Any]) -> Reference:
+        """The same with what `Searcher.search` says of the next request."""
+        number = told['number']
+        if told['length'] is None:
+            if told['exhausted']:
+                return replace(self, unsolved=(*self.unsolved, number))
+            return replace(self, unsearched=(*self.unsearched, number))
+        known = Known(**{key.name: told[key.name] for key in fields(Known)})
+        return replace(self, known=(*self.known, known))
 
 
 class Searcher:
@@ -85,7 +101,8 @@ class Searcher:
             found = lattice.find(request.start, aim)
             told['states'] = told.get('states', 0) + found.states
             told['exhausted'] = found.exhausted
-            if found.ways:
+            # What is too much for the first lattice is so all the more for a finer one.
+            if found.ways or not found.exhausted:
                 break
         best = math.inf
         firsts = [polished(lattice.ground, way, aim, number, rounds=1) for way in found.ways]
@@ -110,46 +127,47 @@ def _search(number: int) -> dict[str, Any]:
     return _searchers[0].search(number)
 
 
-def make(place: Place, count: int, seed: int, processes: int) -> Iterator[Mapping[str, Any]]:
-    """Search requests until ``count`` are solved; of each what is known of it."""
-    _searchers[:] = [Searcher(place, seed)]
+def make(
+    place: Place, count: int, kept: Reference, processes: int
+) -> Iterator[tuple[Reference, int]]:
+    """Go on from what is ``kept`` until ``count`` requests are solved.
+
+    After each batch of requests all that is known by then, and how many states it took.
+    """
+    if len(kept.known) >= count:
+        return
+    _searchers[:] = [Searcher(place, kept.seed)]
     # Compiled once, before the processes are forked.
     _search(0)
-    solved = 0
     with multiprocessing.get_context('fork').Pool(processes) as pool:
-        for first in range(0, 100 * count, BATCH):
+        for first in range(kept.tried, 100 * count, BATCH):
+            states = 0
             for told in pool.imap(_search, range(first, first + BATCH)):
-                if solved < count:
-                    yield told
-                    solved += told['length'] is not None
-            print(
-                f'{place.name}: {min(first + BATCH, 100 * count)} tried, {solved} solved',
-                flush=True,
-            )
-            if solved == count:
+                if len(kept.known) < count:
+                    kept = kept.with_result(told)
+                    states += told['states']
+            yield kept, states
+            if len(kept.known) == count:
                 return
 
 
-def write(world: str, seed: int, rows: Sequence[Mapping[str, Any]], folder: Path = FOLDER) -> Path:
-    """Keep the results of one world."""
+def write(reference: Reference, folder: Path = FOLDER) -> Path:
+    """Keep what is known of one world."""
     folder.mkdir(parents=True, exist_ok=True)
-    solved = [
-        {key: row[key] for key in ('number', 'kind', 'start', 'text', 'length')}
-        for row in rows
-        if row['length'] is not None
-    ]
-    others = [row for row in rows if row['length'] is None]
     document = {
-        'world': world,
-        'seed': seed,
+        'world': reference.world,
+        'seed': reference.seed,
         'made_by': 'python -m experiments.motion.reference',
-        'unsolved': [row['number'] for row in others if row['exhausted']],
-        'unsearched': [row['number'] for row in others if not row['exhausted']],
-        'requests': solved,
+        'unsolved': reference.unsolved,
+        'unsearched': reference.unsearched,
+        'requests': [asdict(known) for known in reference.known],
     }
-    path = folder / f'{world}.json.gz'
+    path = folder / f'{reference.world}.json.gz'
     text = json.dumps(document, separators=(',', ':'))
-    path.write_bytes(gzip.compress(text.encode(), mtime=0))
+    # A run that ends while it writes leaves the file before.
+    unfinished = path.with_suffix('.part')
+    unfinished.write_bytes(gzip.compress(text.encode(), mtime=0))
+    unfinished.replace(path)
     return path
 
 
@@ -164,6 +182,15 @@ def read(world: str, folder: Path = FOLDER) -> Reference:
     return Reference(world, document['seed'], known, unsolved, unsearched)
 
 
+def earlier(world: str, seed: int, folder: Path) -> Reference:
+    """What earlier runs with this seed found out about a world."""
+    if (folder / f'{world}.json.gz').exists():
+        reference = read(world, folder)
+        if reference.seed == seed:
+            return reference
+    return Reference(world, seed, (), (), ())
+
+
 def main() -> None:
     """Search the requests of all worlds."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -174,18 +201,18 @@ def main() -> None:
     parser.add_argument('--folder', type=Path, default=FOLDER, help='where the results go')
     arguments = parser.parse_args()
     for world in arguments.world or WORLDS:
-        began = time.perf_counter()
+        began, total = time.perf_counter(), 0
         place = WORLDS[world](ROOT / 'out' / 'experiments' / 'motion')
-        rows = list(make(place, arguments.requests, arguments.seed, arguments.processes))
-        path = write(world, arguments.seed, rows, arguments.folder)
-        others = [row for row in rows if row['length'] is None]
-        cut = sum(not row['exhausted'] for row in others)
-        print(
-            f'{world}: {len(rows) - len(others)} solved, {len(others) - cut} searched exhaustively '
-            f'in vain, {cut} broken off, {sum(row["states"] for row in rows) / 1e6:.0f} million '
-            f'states, {time.perf_counter() - began:.0f} s, {path}',
-            flush=True,
-        )
+        before = earlier(world, arguments.seed, arguments.folder)
+        for reference, states in make(place, arguments.requests, before, arguments.processes):
+            write(reference, arguments.folder)
+            total += states
+            print(
+                f'{world}: {len(reference.known)} solved, {len(reference.unsolved)} searched '
+                f'exhaustively in vain, {len(reference.unsearched)} broken off, '
+                f'{total / 1e6:.0f} million states, {time.perf_counter() - began:.0f} s',
+                flush=True,
+            )
 
 
 if __name__ == '__main__':

@@ -27,6 +27,7 @@ from motion_planner_node.requests import (
     GeometricRequest,
 )
 from motion_planner_node.robots.motion import Attitude, GeometricState
+from motion_planner_node.world.holes import chain
 from motion_planner_node.world.model import Obstacle, Polygon, Region, World
 
 
@@ -237,7 +238,7 @@ def descriptor_of(row: Specification) -> ParameterDescriptor:
 
 def _region_to_msg(region: Region) -> msg.Region:
     if isinstance(region, Polygon):
-        corners = [Point(x=float(x), y=float(y)) for x, y in region.corners]
+        corners = [Point(x=float(x), y=float(y)) for x, y in chain(region)]
         return msg.Region(name=region.name, polygon=corners)
     x, y = region.center
     return msg.Region(
@@ -249,7 +250,7 @@ def _region_to_msg(region: Region) -> msg.Region:
 
 def _obstacle_to_msg(obstacle: Obstacle) -> msg.Obstacle:
     if isinstance(obstacle, Polygon):
-        corners = [Point(x=float(x), y=float(y)) for x, y in obstacle.corners]
+        corners = [Point(x=float(x), y=float(y)) for x, y in chain(obstacle)]
         return msg.Obstacle(name=obstacle.name, polygon=corners)
     x, y = obstacle.center
     return msg.Obstacle(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from motion_planner_node.world.files import LONGEST_PATH, read_file
+from motion_planner_node.world.holes import with_holes
 from motion_planner_node.world.model import Polygon
 from motion_planner_node.world.outlines import read_polygon
 from motion_planner_node.world.syntax import Mapping, Node, Sequence, read_tree
@@ -88,11 +89,14 @@ class _Reader:
         items = self._items(rings, pointer)
         if rings is not None and not items:
             self._faults.add(f'{pointer} has no ring', rings.place)
-        if len(items) > 1:
-            message = f'{pointer}/1 is a hole; split the polygon so that it has none'
-            self._faults.add(message, items[1].place)
-        elif items:
-            polygon = read_polygon(_flat(items[0]), f'{pointer}/0', self._faults)
+        read = [
+            read_polygon(_flat(item), f'{pointer}/{number}', self._faults)
+            for number, item in enumerate(items)
+        ]
+        outline, *holes = [polygon for polygon in read if polygon is not None] or [None]
+        if outline is not None and len(holes) == len(items) - 1:
+            places = [item.place for item in items[1:]]
+            polygon = with_holes(outline, holes, places, self._faults) if holes else outline
             if polygon is not None:
                 yield name, polygon
 

@@ -32,10 +32,20 @@ class WorldObject:
 
 @dataclass(frozen=True, slots=True)
 class Polygon:
-    """A simple polygon, closed implicitly: the corners [m] in order."""
+    """A simple polygon, closed implicitly: the corners [m] in order.
+
+    ``holes`` are simple polygons inside of it that do not belong to it; they neither meet each other
+    nor its outline.
+    """
 
     name: str
     corners: tuple[tuple[float, float], ...]
+    holes: tuple[tuple[tuple[float, float], ...], ...] = ()
+
+    @property
+    def rings(self) -> tuple[tuple[tuple[float, float], ...], ...]:
+        """The outline and those of the holes."""
+        return (self.corners, *self.holes)
 
 
 @dataclass(frozen=True, slots=True)

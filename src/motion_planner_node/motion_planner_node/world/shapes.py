@@ -29,8 +29,9 @@ class Shapes(structref.StructRefProxy):
     Kernels get a reference to it, which is quicker to pass than a tuple of arrays.
 
     bounds: (4,) x_min, y_min, x_max, y_max.
-    edges: (e, 4) x0, y0, x1, y1 of all polygons, those of one polygon next to each other, then
-        those between free and occupied cells of the occupancy map.
+    edges: (e, 4) x0, y0, x1, y1 of all polygons, those of one polygon and its holes next to each
+        other, then those between free and occupied cells of the occupancy map. A point is in a
+        polygon when a ray from it crosses an odd number of its edges.
     first_edge: (p + 1,) where the edges of each polygon begin, and those of the map.
     discs: (d, 3) x, y, radius.
     boxes: (p + d, 4) x_min, y_min, x_max, y_max of polygons and discs.
@@ -192,8 +193,9 @@ def _shapes(
     disc_names: list[str] = []
     for obstacle in obstacles:
         if isinstance(obstacle, Polygon):
-            following = obstacle.corners[1:] + obstacle.corners[:1]
-            edges += [(*a, *b) for a, b in zip(obstacle.corners, following, strict=True) if a != b]
+            for ring in obstacle.rings:
+                following = ring[1:] + ring[:1]
+                edges += [(*a, *b) for a, b in zip(ring, following, strict=True) if a != b]
             first_edge.append(len(edges))
             xs, ys = zip(*obstacle.corners, strict=True)
             polygon_boxes.append((min(xs), min(ys), max(xs), max(ys)))
