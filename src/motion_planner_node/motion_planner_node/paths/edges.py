@@ -12,7 +12,13 @@ from numpy.typing import NDArray
 from motion_planner_node.robots.body import Body
 from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.robots.motion import Pose
-from motion_planner_node.robots.steering import MOST_PIECES, shortest_word, word, words
+from motion_planner_node.robots.steering import (
+    MOST_PIECES,
+    shortest_word,
+    word,
+    word_lengths,
+    words,
+)
 from motion_planner_node.world.shapes import SHAPES_TYPE, Shapes
 from motion_planner_node.world.sweeps import word_is_free
 
@@ -73,11 +79,9 @@ def shortest_is_free(frame: Frame, start: Pose, end: Pose) -> bool:
 def shortest_length(frame: Frame, start: Row, end: Row, pieces: Rows) -> float:
     """Length [m] of the shortest word, free or not; ``pieces`` (5, 4) is overwritten."""
     here, there = (start[0], start[1], start[2]), (end[0], end[1], end[2])
-    shortest = inf
-    for number in range(words(frame.steering)):
-        length = word(frame.steering, frame.radius, number, here, there, pieces)
-        shortest = min(shortest, length)
-    return shortest
+    lengths = np.empty(words(frame.steering))
+    word_lengths(frame.steering, frame.radius, here, there, pieces, lengths)
+    return float(lengths.min())
 
 
 @kernel
@@ -92,11 +96,9 @@ def free_word(
     if not hypot(end[0] - start[0], end[1] - start[1]) < longest:
         return inf, -1
     here, there = (start[0], start[1], start[2]), (end[0], end[1], end[2])
-    count = words(frame.steering)
-    lengths = np.empty(count)
-    for number in range(count):
-        lengths[number] = word(frame.steering, frame.radius, number, here, there, pieces)
-    for _ in range(count):
+    lengths = np.empty(words(frame.steering))
+    word_lengths(frame.steering, frame.radius, here, there, pieces, lengths)
+    for _ in range(len(lengths)):
         number = int(np.argmin(lengths))
         length = lengths[number]
         if not length < longest:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from ompl import base
 
-from motion_planner_node.robots.dubins import TURNS, dubins_word
+from motion_planner_node.robots.dubins import TURNS, dubins_lengths, dubins_word
 from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.robots.model import Model
 from motion_planner_node.robots.motion import COMPONENTS, Pose
@@ -35,3 +35,9 @@ def word(radius: float, number: int, start: Pose, end: Pose, pieces: NDArray[np.
         pieces[i, 0] = TURNS[number, i] / radius
         pieces[i, 1] = lengths[i]
     return lengths[0] + lengths[1] + lengths[2]
+
+
+@kernel
+def word_lengths(radius: float, start: Pose, end: Pose, lengths: NDArray[np.float64]) -> None:
+    """The lengths [m] of all words as in `steering.word_lengths`."""
+    dubins_lengths(radius, *start, *end, lengths)

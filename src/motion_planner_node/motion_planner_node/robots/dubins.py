@@ -9,8 +9,11 @@ from __future__ import annotations
 from math import acos, atan2, cos, hypot, inf, pi, sin, sqrt
 
 import numpy as np
+from numpy.typing import NDArray
 
 from motion_planner_node.robots.kernel import kernel
+
+_End = tuple[float, float, float, float, float]
 
 #: Turns of the six words: 1 is left, 0 straight, -1 right.
 TURNS = np.array([[1, 0, 1], [-1, 0, -1], [1, 0, -1], [-1, 0, 1], [1, -1, 1], [-1, 1, -1]])
@@ -65,14 +68,43 @@ def dubins_word(
 
     A piece follows the circle of turning radius ``radius`` [m] or a common tangent of two.
     """
+    start = (x0, y0, heading0, cos(heading0), sin(heading0))
+    end = (x1, y1, heading1, cos(heading1), sin(heading1))
+    return _pieces(word, radius, start, end)
+
+
+@kernel
+def dubins_lengths(
+    radius: float,
+    x0: float,
+    y0: float,
+    heading0: float,
+    x1: float,
+    y1: float,
+    heading1: float,
+    lengths: NDArray[np.float64],
+) -> None:
+    """Fill ``lengths`` (6,) [m] with those of all words, infinite for those that do not exist."""
+    start = (x0, y0, heading0, cos(heading0), sin(heading0))
+    end = (x1, y1, heading1, cos(heading1), sin(heading1))
+    for word in range(len(TURNS)):
+        first, middle, last = _pieces(word, radius, start, end)
+        lengths[word] = first + middle + last
+
+
+@kernel
+def _pieces(word: int, radius: float, start: _End, end: _End) -> tuple[float, float, float]:
+    """As `dubins_word`, between ends of x, y, heading, and its cosine and sine."""
+    x0, y0, heading0, cosine0, sine0 = start
+    x1, y1, heading1, cosine1, sine1 = end
     first, last = TURNS[word, 0], TURNS[word, 2]
     if word < 2:
         half, middle = 0.5 * (heading1 - heading0), 0.5 * (heading1 + heading0)
         chord = 2.0 * radius * sin(half) * first
         dx, dy = (x1 - x0) - chord * cos(middle), (y1 - y0) - chord * sin(middle)
         return _same_turns(first, radius, dx, dy, heading0, heading1)
-    dx = (x1 - x0) - radius * (last * sin(heading1) - first * sin(heading0))
-    dy = (y1 - y0) + radius * (last * cos(heading1) - first * cos(heading0))
+    dx = (x1 - x0) - radius * (last * sine1 - first * sine0)
+    dy = (y1 - y0) + radius * (last * cosine1 - first * cosine0)
     distance = hypot(dx, dy)
     toward = atan2(dy, dx) if distance > 0.0 else heading0
     if word < 4:

@@ -28,6 +28,7 @@ from motion_planner_node.language.tape import Tape
 from motion_planner_node.requests import Residual
 from motion_planner_node.robots.arcs import wrap_angle
 from motion_planner_node.robots.motion import Attitude, GeometricState
+from motion_planner_node.satisfaction.bounding import bounds_at
 from motion_planner_node.satisfaction.cells import Cells, possible_cells, possible_positions
 from motion_planner_node.satisfaction.conflicts import contradiction
 from motion_planner_node.satisfaction.evaluation import violations_at
@@ -208,6 +209,16 @@ class Program:
     def bounds(self, x: Interval, y: Interval, heading: Interval) -> list[Interval]:
         """Bounds of the functions f_i over boxes of attitudes, headings within [-pi, pi]."""
         go_on(self._should_stop)
+        if self.table is not None:
+            low, high = (
+                np.column_stack([getattr(component, end) for component in (x, y, heading)])
+                for end in ('low', 'high')
+            )
+            periodic = np.array([row.periodic for row in self.rows], np.float64)
+            return [
+                Interval(*ends)
+                for ends in zip(*bounds_at(self.table, periodic, low, high), strict=True)
+            ]
         with np.errstate(all='ignore'):
             values = self._tape.run((x, y, heading), Interval.constant)
             return [row.bounds(values[row.left], values[row.right]) for row in self.rows]
@@ -228,6 +239,7 @@ class Program:
         Where nothing may hold one, the boxes cover all of it.
         """
         if bounds not in self._places:
+            _ = self.table  # which the copy shares
             loose = copy(self)
             loose.tolerance = _LOOSE
             cells = possible_cells(loose, bounds, most=_MOST_PLACES)

@@ -18,11 +18,15 @@ from motion_planner_node.satisfaction.row import Row
 
 #: Operation codes; the table holds them with the slots of their two operands.
 NEGATE, ADD, SUBTRACT, MULTIPLY, DIVIDE, HYPOT, ARCTAN2, SINE, COSINE, ABSOLUTE, MINIMUM = range(11)
+#: An angle of which it does not matter by how many full turns: `ARCTAN2`, or part of a `BEARING`.
+_DIRECTION = -1
 #: Keeps only some derivatives: the second operand is a set of bits, one for each component.
 RESTRICT = 11
 #: Several operations in one, from the agent to a place whose constant x and y are the operands:
 #: distance, bearing, heading minus bearing, and that with the heading as its only derived code.
 RANGE, BEARING, RELATIVE, RELATIVE_TURNED = range(12, 16)
+
+_EPSILON = float(np.finfo(np.float64).eps)
 
 _X, _Y, _HEADING = range(3)
 _ONLY_HEADING = 1 << _HEADING
@@ -36,7 +40,8 @@ class Table(NamedTuple):
     constants: (c,) numbers
     operations: (k, 3) operation code and the slots of its operands
     outputs: (m,) slots of which the differences of the sides of the constraints are made
-    linear: (m, 2) factor and number: the difference is factor * slot + number
+    linear: (m, 3) factor, 1 or -1, and number: the difference is factor * slot + number, where the
+        number may be off by the third column through rounding
     """
 
     constants: NDArray[np.float64]
@@ -80,10 +85,9 @@ class _Recorder:
             east, north = self._minus(first, _X), self._minus(second, _Y)
             if east and north:
                 return RANGE, east, north
-        elif code == ARCTAN2:
+        elif code == _DIRECTION:
             east, north = self._minus(second, _X), self._minus(first, _Y)
-            if east and north:
-                return BEARING, east, north
+            return (BEARING, east, north) if east and north else (ARCTAN2, first, second)
         elif code == SUBTRACT and first == _HEADING:
             bearing = self.operation(second)
             if bearing and bearing[0] == BEARING:
@@ -102,22 +106,30 @@ class _Recorder:
         code, first, second = self.operation(slot) or (NEGATE, 0, 0)
         return first if code == SUBTRACT and first < 0 and second == component else 0
 
-    def linear(self, slot: int) -> tuple[int, float, float]:
-        """A slot, factor and number, so that ``slot`` is factor times that slot plus the number."""
-        factor, number = 1.0, 0.0
+    def linear(self, slot: int) -> tuple[int, float, float, float]:
+        """A slot, factor and number, so that ``slot`` is factor times that slot plus the number.
+
+        The last is by how much the number may be off.
+        """
+        factor, number, error = 1.0, 0.0, 0.0
         while operation := self.operation(slot):
             code, first, second = operation
+            term = 0.0
             if code == NEGATE:
                 slot, factor = first, -factor
             elif code in {ADD, SUBTRACT} and second < 0:
                 sign = factor if code == ADD else -factor
-                slot, number = first, number + sign * self.constants[-1 - second]
+                slot, term = first, sign * self.constants[-1 - second]
             elif code == SUBTRACT and first < 0:
-                slot, number = second, number + factor * self.constants[-1 - first]
+                slot, term = second, factor * self.constants[-1 - first]
                 factor = -factor
             else:
                 break
-        return slot, factor, number
+            total = number + term
+            # Nothing is lost where one of the two is 0.
+            error += _EPSILON * abs(total) if number and term else 0.0
+            number = total
+        return slot, factor, number, error
 
 
 class _Recorded:
@@ -166,7 +178,7 @@ class _Recorded:
         return self._with(ARCTAN2, abscissa)
 
     def direction(self, abscissa: _Recorded) -> _Recorded:
-        return self._with(ARCTAN2, abscissa)
+        return self._with(_DIRECTION, abscissa)
 
     def sin(self) -> _Recorded:
         return self._alone(SINE)
@@ -236,5 +248,5 @@ def _numbered(
         np.array(recorder.constants, dtype=np.float64),
         np.array(table, dtype=np.int64).reshape(-1, 3),
         np.array([final[slot] for slot in outputs], dtype=np.int64),
-        np.array(linear, dtype=np.float64).reshape(-1, 2),
+        np.array(linear, dtype=np.float64).reshape(-1, 3),
     )
