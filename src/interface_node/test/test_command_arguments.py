@@ -27,10 +27,11 @@ def test_a_goal_holds_all_options(mission: Path, tmp_path: Path) -> None:
     other = str(mission / 'other.yaml')
     options = ['--seed', '18446744073709551615', '--time-budget', '2.5', '--max-alternatives', '3']
     flags = ['--no-advice', '--optimise', '--output', str(tmp_path / 'o'), '--world', other]
+    flags += ['--guidance', 'nearest_first']
     arguments = parser().parse_args(['run', str(mission), *options, *flags])
     goal = goal_of(arguments, mission_of(arguments))
     assert (goal.seed, goal.time_budget, goal.max_alternatives) == (2**64 - 1, 2.5, 3)
-    assert (goal.use_advice, goal.optimise) == (False, True)
+    assert (goal.use_advice, goal.optimise, goal.guidance) == (False, True, 'nearest_first')
     assert goal.output_directory == str(tmp_path / 'o')
     assert goal.mission.sources['world'].text == 'other.yaml'
     assert goal.mission.sources['domain'].text == 'domain.lisp'
@@ -43,7 +44,7 @@ def test_by_default_the_nodes_choose_and_results_go_to_out(
     arguments = parser().parse_args(['plan', 'survey', '--output', ''])
     goal = goal_of(arguments, mission_of(arguments))
     assert (goal.seed, goal.time_budget, goal.max_alternatives) == (0, 0.0, 0)
-    assert (goal.use_advice, goal.optimise) == (True, False)
+    assert (goal.use_advice, goal.optimise, goal.guidance) == (True, False, '')
     assert goal.output_directory == str(mission.parent / 'out' / 'survey')
 
 
@@ -88,6 +89,7 @@ def test_namespaces_lose_outer_slashes(given: str, expected: str) -> None:
         ['run', 'rover', '--time-budget', 'soon'],
         ['run', 'rover', '--max-alternatives', '0'],
         ['run', 'rover', '--max-alternatives', '4294967296'],
+        ['run', 'rover', '--guidance', 'stars'],
         ['run', 'rover', '--namespace', '1st'],
         ['run', 'rover', '--namespace', 'a//b'],
         ['run', 'rover', '--namespace', 'a b'],

@@ -19,6 +19,8 @@ from interface_node.command_line.missions import (
 )
 from interface_node.command_line.nodes import NODES, NodeSettings
 
+#: Orders of goals that the motion planner can be asked for: PlanningOptions.guidance.
+GUIDANCES = ('tour', 'nearest_first')
 LOG_LEVELS = ('debug', 'info', 'warn', 'error', 'fatal')
 
 
@@ -116,6 +118,12 @@ def add_mission(parser: ArgumentParser) -> None:
         '--no-advice', action='store_true', help='keep the goals in their written order'
     )
     parser.add_argument(
+        '--guidance',
+        choices=GUIDANCES,
+        default='',
+        help="order of goals that advice is asked for (the nodes' own)",
+    )
+    parser.add_argument(
         '--optimise',
         action='store_true',
         help='search on for shorter plans until the time budget is spent',
@@ -178,6 +186,7 @@ def goal_of(arguments: Namespace, mission: Mission) -> MissionGoal:
         max_alternatives=arguments.max_alternatives,
         use_advice=not arguments.no_advice,
         optimise=arguments.optimise,
+        guidance=arguments.guidance,
     )
 
 

@@ -9,7 +9,7 @@ from interface_node.command_line.missions import Mission
 
 @dataclass(frozen=True, slots=True)
 class MissionGoal:
-    """A mission and how it is to be searched; zeros leave a choice to the nodes.
+    """A mission and how it is to be searched; zeros and empty texts leave a choice to the nodes.
 
     ``time_budget`` is in [s]; ``output_directory`` is absolute, or empty for no files.
     """
@@ -21,3 +21,4 @@ class MissionGoal:
     max_alternatives: int = 0
     use_advice: bool = True
     optimise: bool = False
+    guidance: str = ''

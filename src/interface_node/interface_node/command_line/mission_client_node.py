@@ -96,6 +96,7 @@ class MissionClient:
                 optimise=goal.optimise,
                 use_advice=goal.use_advice,
                 max_alternatives=goal.max_alternatives,
+                guidance=goal.guidance,
             ),
             output_directory=goal.output_directory,
         )
