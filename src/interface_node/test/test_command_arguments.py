@@ -89,6 +89,7 @@ def test_namespaces_lose_outer_slashes(given: str, expected: str) -> None:
         ['run', 'rover', '--time-budget', 'soon'],
         ['run', 'rover', '--max-alternatives', '0'],
         ['run', 'rover', '--max-alternatives', '4294967296'],
+        ['run', 'rover', '--guidance', 'stars'],
         ['run', 'rover', '--namespace', '1st'],
         ['run', 'rover', '--namespace', 'a//b'],
         ['run', 'rover', '--namespace', 'a b'],

@@ -40,11 +40,8 @@ class Options:
     use_advice: bool = True
     plans: int = 1
     memory_limit: int = 4096
-<<<<<<< HEAD
     guidance: Guidance = 'tour'
-=======
     linear_matching: bool = False
->>>>>>> figures
 
 
 @dataclass(frozen=True, slots=True)
