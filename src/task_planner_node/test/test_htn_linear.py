@@ -23,7 +23,9 @@ from task_planner_node.search.terms import ListPattern
 
 TOYS = sorted((Path(__file__).parents[1] / 'domains' / 'toys').glob('*.lisp'))
 CASES = [
-    (toy, name) for toy in TOYS for name in re.findall(r'^;; plan (\S+):', toy.read_text(), re.MULTILINE)
+    (toy, name)
+    for toy in TOYS
+    for name in re.findall(r'^;; plan (\S+):', toy.read_text(), re.MULTILINE)
 ]
 VALUES = ('a', 'b', ('a', 'b'), ('b',))
 FACTS = [('p', *pair) for pair in itertools.product(VALUES, repeat=2)]

@@ -37,9 +37,7 @@ class Legs:
 
     def __init__(self, ground: Ground, seed: int, should_stop: ShouldStop) -> None:
         robot = ground.robot
-        self.frame = frame_of(
-            ground.scene.shapes, robot.body, robot.steering, robot.turning_radius
-        )
+        self.frame = frame_of(ground.scene.shapes, robot.body, robot.steering, robot.turning_radius)
         self._ground = ground
         self._seed = seed
         self._should_stop = should_stop
