@@ -62,6 +62,7 @@ class Planned:
 
 def plan(namespace: str, mission: str, seed: int, folder: Path) -> Planned:
     """Plan a mission with nodes that run, leave its files in ``folder`` and have them judged."""
+    shutil.rmtree(folder, ignore_errors=True)
     command = ['geohtn', 'plan', str(FOLDER / mission), '--namespace', namespace, '--wait', '60']
     done = subprocess.run(
         [*command, '--seed', str(seed), '--output', str(folder)],
