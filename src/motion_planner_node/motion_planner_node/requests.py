@@ -9,7 +9,6 @@ from motion_planner_node.codes import AttemptResult, Code, Purpose, Scope, Statu
 from motion_planner_node.errors import Diagnostic
 from motion_planner_node.robots.motion import Attitude, GeometricState, Motion
 
-
 #: Label of a robot, and where it stands in the end.
 End = tuple[str, Attitude]
 
