@@ -21,7 +21,6 @@ from motion_planner_node.tours.local_search import short_tour
 from motion_planner_node.tours.refining import refined
 from motion_planner_node.tours.samples import Samples
 
-
 #: For no more goals than these all rounds of an effort are made.
 FEW = 16
 
