@@ -17,6 +17,8 @@ from motion_planner_node.tours.chains import Groups, Indices, Table
 
 #: Steps of the programme for which it is taken at most: some 0.2 s.
 MOST_STEPS = 1e8
+#: Goals for which it is taken at most: the memory doubles with each.
+MOST_EXACT = 14
 #: Sets of groups that are worked on between two questions whether to stop.
 SETS_AT_A_TIME = 64
 
@@ -24,7 +26,7 @@ SETS_AT_A_TIME = 64
 def is_small(groups: Groups) -> bool:
     """Whether `best_tour` is quick enough."""
     goals, widest = len(groups.first) - 1, float(groups.count.max())
-    return goals <= 14 and 2.0**goals * (goals * widest) ** 2 / 4.0 <= MOST_STEPS
+    return goals <= MOST_EXACT and 2.0**goals * (goals * widest) ** 2 / 4.0 <= MOST_STEPS
 
 
 def best_tour(groups: Groups, should_stop: ShouldStop) -> Indices:
