@@ -9,6 +9,8 @@ from math import inf
 from motion_planner_node.advice import pairwise
 from motion_planner_node.advice.costs import Driven, estimates, grouped, lower_bounds
 from motion_planner_node.advice.survey import Survey
+from motion_planner_node.advice.purposes import TOURS, check_purpose
+from motion_planner_node.advice.tours import with_tour
 from motion_planner_node.codes import Code, Status
 from motion_planner_node.errors import MotionPlannerError
 from motion_planner_node.language import Preconditions
@@ -55,7 +57,7 @@ class Advisor:
         self._surveys.clear()
 
     def advise(self, request: AdviceRequest, should_stop: ShouldStop) -> AdviceAnswer:
-        """Advice on every candidate; the order is nearest first, impossible ones last.
+        """Advice on every candidate; the order is nearest first or a tour's, impossible ones last.
 
         :raises MotionPlannerError: WORLD_CHANGED, UNKNOWN_AGENT, INVALID_START, UNSUPPORTED
         :raises Stopped: when ``should_stop`` said so
@@ -71,6 +73,7 @@ class Advisor:
                 Code.UNSUPPORTED,
                 f'{count} candidates are too many for pairwise costs: {MOST_PAIRED} at most',
             )
+        check_purpose(self._world, request)
         state = checked_state(self._world, request.start)
         candidates, driven = [], {}
         standing = _Standing(state)
@@ -92,6 +95,8 @@ class Advisor:
             range(count), key=lambda i: (candidates[i].impossible, candidates[i].estimate, i)
         )
         answer = AdviceAnswer(tuple(candidates), tuple(order), self._world.revision)
+        if request.purpose in TOURS:
+            answer = with_tour(answer, request, driven, should_stop)
         if not request.pairwise:
             return answer
         bounds, estimates = pairwise.matrices(candidates, driven, should_stop)

@@ -20,7 +20,7 @@ _OPTIONS = {'nogil': True, 'error_model': 'numpy'}
 def _digest_of_sources() -> str:
     """A digest of every kernel's source, as a kernel holds the code of those that it calls."""
     digest = hashlib.sha256()
-    for room in ('robots', 'world', 'paths', 'satisfaction'):
+    for room in ('robots', 'world', 'paths', 'satisfaction', 'tours'):
         for path in sorted((_PACKAGE / room).glob('*.py')):
             digest.update(path.read_bytes())
     return digest.hexdigest()[:16]

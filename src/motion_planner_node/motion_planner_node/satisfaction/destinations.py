@@ -102,7 +102,7 @@ def destinations(
         if travel is not None:
             begin = np.concatenate((begin, _near(program, begin[0], bounds, rng, count, travel)))
     found = _sorted_out(program, descend(program, begin), room)
-    chosen = _farthest_points(found, count)
+    chosen = farthest_points(found, count)
     if travel is not None and len(found):
         nearest = np.argsort(travel.lengths(found), kind='stable')[:count]
         chosen = np.concatenate((chosen, np.setdiff1d(nearest, chosen)))
@@ -143,7 +143,7 @@ def _sorted_out(program: Program, descent: Descent, room: Room) -> Array:
 
 
 @kernel
-def _farthest_points(states: Array, count: int) -> NDArray[np.int64]:
+def farthest_points(states: Array, count: int) -> NDArray[np.int64]:
     """Indices of ``count`` different states: the first, then always the one farthest from all."""
     total = len(states)
     chosen, size, last = np.zeros(min(count, total), np.int64), 0, 0

@@ -1,0 +1,1 @@
+"""Orders in which to meet many sets of preconditions, and where: short tours."""
