@@ -22,7 +22,6 @@ from task_planner_node.oracle import (
 )
 from task_planner_node.outcomes import Options, Outcome, Result
 from task_planner_node.search.guidance import leading_request
-from task_planner_node.search.tours import Following, Stop, Tour
 from tests.support.sites import Point, Sites, label_of, shortest_way
 
 Planned = Callable[..., Result]
@@ -125,12 +124,12 @@ def test_after_the_preferred_attitude_come_all_others(plan: Planned) -> None:
             return super().satisfy(query)
 
     world = Picky({'a': ((-1.0, 0.0), (-2.0, 0.0), (-1.0, 9.0)), 'b': ((5.0, 0.0),)})
-    problem = '(defproblem p d ((first a)) ((see a) (see b)))'
-    together = unordered(TASKS[:2])
-    assert seen(plan(DOMAIN, problem, world)) == ['a', 'b']
-    assert plan(DOMAIN, together, world).outcome == Outcome.SOLVED
-    tour = Following(Tour([Stop('((near a))', (-2.0, 0.0))], {}, lasting=True))
-    assert tour.end('((near a))') == (-2.0, 0.0)
+    facts = '(clock 0)(closes a 0)(closes b 9)'
+    result = plan(DOMAIN, unordered(['(call-on a)', '(call-on b)'], facts), world)
+    assert seen(result) == ['a', 'b']
+    assert world.queries[0].preferred == (-1.0, 0.0)
+    assert result.steps[0].answer is not None
+    assert result.steps[0].answer.end == (-1.0, 9.0)
 
 
 def test_what_a_tour_proves_impossible_is_not_searched_for(plan: Planned) -> None:
