@@ -19,8 +19,6 @@ from interface_node.command_line.missions import (
 )
 from interface_node.command_line.nodes import NODES, NodeSettings
 
-#: Orders of goals that the motion planner can be asked for: PlanningOptions.guidance.
-GUIDANCES = ('tour', 'nearest_first')
 LOG_LEVELS = ('debug', 'info', 'warn', 'error', 'fatal')
 
 
@@ -119,7 +117,7 @@ def add_mission(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         '--guidance',
-        choices=GUIDANCES,
+        choices=('tour', 'nearest_first'),
         default='',
         help="order of goals that advice is asked for (the nodes' own)",
     )
