@@ -157,7 +157,7 @@ def test_tours_are_those_of_exhaustive_search(seed: int) -> None:
         )
         for i, j in itertools.permutations(range(4), 2)
     }
-    best = {}
+    best: dict[tuple[int, ...], float] = {}
     for order in itertools.permutations(range(4)):
         for places in itertools.product(*(range(sizes[i]) for i in order)):
             length = first[order[0]][places[0]]

@@ -116,9 +116,9 @@ def _arcs(centre: Array, high: float, arc: float, room: BaseGeometry, solid: Bas
     angles = np.linspace(0.0, 2.0 * np.pi, int(np.ceil(2.0 * np.pi * high / arc)), endpoint=False)
     middles = centre + high * np.column_stack([np.cos(angles), np.sin(angles)])
     points = shapely.points(middles)
-    return middles[shapely.covers(room, points) & ~shapely.intersects(solid, points)]
+    return np.asarray(middles[shapely.covers(room, points) & ~shapely.intersects(solid, points)])
 
 
 def _corners(shape: BaseGeometry, room: BaseGeometry) -> Array:
     corners = np.asarray(shapely.get_coordinates(shape.exterior)[:-1])
-    return corners[shapely.covers(room, shapely.points(corners))]
+    return np.asarray(corners[shapely.covers(room, shapely.points(corners))])
