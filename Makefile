@@ -5,8 +5,8 @@ RUN := ros2_ws/run
 TYPECHECKS := mypy $(foreach file,$(wildcard src/*/test/conftest.py),'mypy $(file)')
 
 .DEFAULT_GOAL := help
-.PHONY: help setup mission test format lint typecheck experiments experiment-mission \
-  experiment-constraints experiment-motion experiment-htn experiment-paper experiment-packages fuzz clean
+.PHONY: help setup mission test format lint typecheck experiments experiment-constraints \
+  experiment-motion experiment-htn experiment-paper experiment-packages fuzz clean
 
 help: ## List the targets
 	@echo 'make TARGET [PYTHON=python3.12]'
@@ -38,10 +38,7 @@ lint: setup ## Check format and lint
 typecheck: setup ## Check the types
 	@status=0; for check in $(TYPECHECKS); do $(RUN) $$check || status=1; done; exit $$status
 
-experiments: experiment-mission experiment-constraints experiment-motion experiment-htn experiment-paper ## Run all experiments; results in out/experiments
-
-experiment-mission: setup ## Measure the rover mission: planning time and where it goes
-	@$(RUN) python -m experiments.mission.run
+experiments: experiment-constraints experiment-motion experiment-htn experiment-paper ## Run all experiments; results in out/experiments
 
 experiment-constraints: experiment-packages ## Measure the solver of constraints beside scipy and CasADi
 	@$(RUN) python -m experiments.constraints.run

@@ -114,9 +114,9 @@ def make(start: Array, goals: Sequence[Array], between: Array, ground: Ground) -
 
 def _inside(rows: Array, lattice: Lattice) -> NDArray[np.bool_]:
     low, high = lattice.ground.bounds[:2], lattice.ground.bounds[2:]
-    inside = ((rows[:, :2] > low) & (rows[:, :2] < high)).all(axis=1)
+    inside = np.asarray(((rows[:, :2] > low) & (rows[:, :2] < high)).all(axis=1))
     inside[inside] = lattice.is_free(rows[inside])
-    return np.asarray(inside)
+    return inside
 
 
 @compiled

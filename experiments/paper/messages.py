@@ -1,0 +1,121 @@
+"""Part 4: messages between the planners, with advice and without, and geometry all beforehand."""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from experiments.paper.beforehand import plan_beforehand
+from experiments.paper.part import Claim, Part, write_csv
+from experiments.paper.photos import write_mission
+from experiments.paper.report import table
+from experiments.planning import COUNTS, nodes_up
+
+#: Options of geohtn by the names of the methods.
+METHODS: Mapping[str, tuple[str, ...]] = {
+    'tour': (),
+    'nearest first': ('--guidance', 'nearest_first'),
+    'no advice': ('--no-advice',),
+}
+BEFOREHAND = 'all beforehand'
+COLUMNS = (*COUNTS, 'planning_time', 'length')
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """How much is measured: numbers of photos, random sets of each, destinations of each beforehand."""
+
+    goals: tuple[int, ...]
+    sets: int
+    alternatives: int
+
+
+FULL = Sizes(goals=(4, 8, 12), sets=5, alternatives=3)
+QUICK = Sizes(goals=(4,), sets=1, alternatives=2)
+
+
+def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
+    """Plan the same random missions in every way, and count."""
+    figures: dict[int, dict[str, dict[str, float]]] = {}
+    with nodes_up(folder / 'plan') as nodes:
+        nodes.plan(write_mission(folder / 'warm_up', 1, seed), seed)
+        for count in sizes.goals:
+            found: dict[str, list[Mapping[str, float]]] = {}
+            for number in range(sizes.sets):
+                mission = write_mission(folder / f'{count}_{number}', count, seed + number, tiles=1)
+                # Other seeds for each method: no answer to a request is remembered.
+                for other, (name, options) in enumerate(METHODS.items(), seed):
+                    plan = nodes.plan(mission, other, *options)
+                    counted = {**plan['statistics'], 'length': plan['length']}
+                    found.setdefault(name, []).append({key: counted[key] for key in COLUMNS})
+                # The nodes still hold this mission's world.
+                found.setdefault(BEFOREHAND, []).append(
+                    plan_beforehand(nodes.namespace, count, sizes.alternatives, seed + len(METHODS))
+                )
+            figures[count] = {
+                name: {key: statistics.median(row[key] for row in rows) for key in COLUMNS}
+                for name, rows in found.items()
+            }
+            asked = figures[count][BEFOREHAND]['requests'], figures[count]['tour']['requests']
+            print(
+                f'  {count} photos: {asked[0]:.0f} requests beforehand, {asked[1]:.0f} when needed'
+            )
+    rows = [
+        (f'{count}, {name}', *(_cell(key, median[key]) for key in COLUMNS))
+        for count, methods in figures.items()
+        for name, median in methods.items()
+    ]
+    head = ('photos, method', *(_heading(key) for key in COLUMNS))
+    write_csv(folder / 'messages.csv', head, rows)
+    return Part(
+        title='Messages, and geometry asked for beforehand',
+        text=_text(sizes, table(head, rows)),
+        figures={'sizes': figures},
+        claims=_claims(figures),
+    )
+
+
+def _claims(figures: Mapping[int, Mapping[str, Mapping[str, float]]]) -> tuple[Claim, ...]:
+    count = max(figures)
+    lazy, all_of_it = figures[count]['tour'], figures[count][BEFOREHAND]
+    without = figures[count]['no advice']
+    return (
+        Claim(
+            'With geometric preprocessing "geometric computations are performed even for actions that '
+            'will not be selected to belong to the final plan".',
+            f'{count} photos take {lazy["requests"]:.0f} requests and {lazy["advices"]:.0f} advices, '
+            f'and {lazy["planning_time"]:.2f} s; asked for beforehand, {all_of_it["requests"]:.0f} '
+            f'requests and {all_of_it["planning_time"]:.1f} s.',
+        ),
+        Claim(
+            '"Advices allow a reordering of tasks according to geometric aspects."',
+            f'The plan of {count} photos is {lazy["length"]:.0f} m long; without advice, in the order '
+            f'of the problem, {without["length"]:.0f} m.',
+        ),
+    )
+
+
+def _heading(key: str) -> str:
+    units = {'planning_time': ' [s]', 'length': ' [m]'}
+    return key.replace('_', ' ') + units.get(key, '')
+
+
+def _cell(key: str, value: float) -> str:
+    return f'{value:.2f}' if key == 'planning_time' else f'{value:.0f}'
+
+
+def _text(sizes: Sizes, lines: str) -> str:
+    return f"""
+Photos of random objectives in the rover's world, {sizes.sets} sets of each size; medians. Each method has a seed of its own, and the tour
+is planned first, when the motion planner knows nothing of the world yet.
+
+{lines}
+
+- **No advice** takes the photos in the order of the problem; **nearest first** asks which is nearest after each photo; **tour** is the default.
+- **All beforehand** is the preprocessing that the paper argues against, over the same motion planner: {sizes.alternatives} destinations of each photo, then a motion
+  from each of them to each of the others', one request each, and after that the exact shortest tour through this graph. It sees only these
+  destinations; what it finds is a shortest tour among them, not among all.
+- `answers` are as many as requests: none is lost. A request beforehand that has no answer with a motion is no arc of the graph.
+"""

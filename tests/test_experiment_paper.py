@@ -1,0 +1,191 @@
+"""The paper's experiments in a reduced form: the direction of each claim on counts and lengths."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from experiments.paper.best_known import kept
+from experiments.paper.growth import fitted
+from experiments.paper.lower_bound import lower_bound
+from experiments.paper.orders import Costs, shortest_tours
+from experiments.paper.part import Claim, Part
+from experiments.paper.photos import PER_TILE, tiled_world
+from experiments.paper.report import write_page
+from experiments.paper.run import main
+from experiments.results import Target
+from tests.support.checker import Judge
+from tests.support.missions import ROVER
+
+BOUNDS = np.array([0.0, 0.0, 1000.0, 1000.0])
+RADIUS, HIGH, ARC = 5.0, 100.0, 6.0
+START = np.array([50.0, 50.0])
+
+seeds = st.integers(0, 2**32 - 1)
+
+
+@pytest.fixture(scope='module')
+def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The parts on missions of photos in their smallest sizes, with a page on them."""
+    folder = tmp_path_factory.mktemp('paper')
+    only = [word for part in ('mission', 'messages', 'growth') for word in ('--only', part)]
+    main([*only, '--quick', '--output', str(folder), '--page', str(folder / 'docs' / 'page.md')])
+    return folder
+
+
+@pytest.fixture(scope='module')
+def figures(run: Path) -> Mapping[str, Any]:
+    results: dict[str, Any] = json.loads((run / 'results.json').read_text(encoding='utf-8'))
+    measured: dict[str, Any] = results['figures']
+    return measured
+
+
+def test_no_plan_undercuts_the_bound_or_the_best_known(figures: Mapping[str, Any]) -> None:
+    mission = figures['mission']
+    assert mission['faults'] == []
+    shortest = min(method['length']['min'] for method in mission['methods'].values())
+    assert mission['lower_bound'] < mission['best_known'] <= shortest
+
+
+def test_an_order_that_is_found_is_shorter_than_the_printed_one(figures: Mapping[str, Any]) -> None:
+    lengths = {name: m['length']['max'] for name, m in figures['mission']['methods'].items()}
+    assert (
+        lengths['default, optimised'] <= lengths['default'] < lengths["the paper's printed order"]
+    )
+
+
+def test_geometry_beforehand_takes_many_more_requests(figures: Mapping[str, Any]) -> None:
+    for count, methods in figures['messages']['sizes'].items():
+        photos = int(count)
+        assert methods['tour']['requests'] < 2 * (photos + 1)
+        assert methods['all beforehand']['requests'] > photos * methods['tour']['requests']
+        assert methods['tour']['backtracks'] <= methods['no advice']['backtracks']
+        assert methods['tour']['advices'] > methods['no advice']['advices'] == 0
+        assert methods['tour']['length'] < methods['no advice']['length']
+
+
+def test_requests_grow_in_proportion_to_goals(figures: Mapping[str, Any]) -> None:
+    sizes = figures['growth']['sizes']
+    assert [told['unsolved'] for told in sizes.values()] == [0, 0]
+    assert figures['growth']['exponents']['requests'] < 1.3
+    assert figures['growth']['exponents']['length'] < 1.3
+
+
+def test_the_page_shows_claims_tables_and_pictures(run: Path) -> None:
+    page = run / 'docs' / 'page.md'
+    text = page.read_text(encoding='utf-8')
+    assert '| the paper | here |' in text
+    pictures = re.findall(r'\]\((images/[^)]+)\)', text)
+    assert len(pictures) >= 3
+    assert all((page.parent / picture).stat().st_size > 1000 for picture in pictures)
+
+
+def test_a_page_tells_what_was_missed(tmp_path: Path) -> None:
+    part = Part('Title', 'Text', {}, [Target('speed', 2.0, 1.0)], [Claim('fast', 'slow')])
+    text = write_page(tmp_path / 'page.md', {'one': part}, seed=7).read_text(encoding='utf-8')
+    assert 'seed 7' in text
+    assert '| fast | slow |' in text
+    assert '| speed | 2 | at most 1 | **no** |' in text
+
+
+def test_the_best_known_tour_is_a_plan_without_faults() -> None:
+    judge = Judge(kept.FILE, ROVER / 'world.yaml')
+    assert judge.complaints() == []
+    photographed = sorted(step['action'][2] for step in judge.plan['steps'][1:])
+    assert photographed == [f'location{k}' for k in range(1, 9)]
+
+
+def bound(centres: Any, obstacles: list[Any]) -> float:
+    return lower_bound(START, np.array(centres, float), HIGH, obstacles, BOUNDS, RADIUS, ARC)
+
+
+def test_the_bound_of_one_objective_is_the_way_to_its_circle() -> None:
+    assert 500.0 - ARC <= bound([[650.0, 50.0]], []) <= 500.0
+
+
+def test_the_bound_goes_round_a_wall() -> None:
+    wall = shapely.box(300.0, 0.0, 310.0, 600.0)
+    # A disc passes the wall's upper corners at its radius; the bound may cut them by half an arc.
+    up, over = math.hypot(250.0, 550.0), math.hypot(340.0, 550.0)
+    assert up + 10.0 + over - HIGH - 3.0 * ARC < bound([[650.0, 50.0]], [wall]) < up + 10.0 + over
+
+
+def test_finer_arcs_raise_the_bound() -> None:
+    centres = np.array([[300.0, 300.0], [700.0, 250.0], [500.0, 800.0]])
+    bounds = [lower_bound(START, centres, HIGH, [], BOUNDS, RADIUS, arc) for arc in (8.0, 4.0, 2.0)]
+    assert bounds == sorted(bounds)
+
+
+def test_a_start_within_reach_is_refused() -> None:
+    with pytest.raises(ValueError, match='within reach'):
+        bound([[100.0, 100.0]], [])
+
+
+@settings(max_examples=20)
+@given(seeds)
+def test_no_tour_of_places_within_reach_undercuts_the_bound(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    centres = random.uniform(250.0, 850.0, (3, 2))
+    turned, away = random.uniform(0.0, math.tau, 3), random.uniform(0.0, HIGH, 3)
+    places = centres + away[:, None] * np.column_stack([np.cos(turned), np.sin(turned)])
+    shortest = min(
+        sum(math.dist(a, b) for a, b in itertools.pairwise([START, *places[list(order)]]))
+        for order in itertools.permutations(range(3))
+    )
+    assert lower_bound(START, centres, HIGH, [], BOUNDS, RADIUS, ARC) <= shortest
+
+
+@given(seeds)
+def test_tours_are_those_of_exhaustive_search(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    sizes = random.integers(1, 4, 4)
+    first = [random.uniform(1.0, 9.0, m) for m in sizes]
+    between = {
+        (i, j): np.where(
+            random.random((sizes[i], sizes[j])) < 0.2, np.inf, random.uniform(1.0, 9.0)
+        )
+        for i, j in itertools.permutations(range(4), 2)
+    }
+    best: dict[tuple[int, ...], float] = {}
+    for order in itertools.permutations(range(4)):
+        for places in itertools.product(*(range(sizes[i]) for i in order)):
+            length = first[order[0]][places[0]]
+            for (i, a), (j, b) in itertools.pairwise(zip(order, places, strict=True)):
+                length += between[i, j][a, b]
+            best[order] = min(length, best.get(order, math.inf))
+    tours = list(shortest_tours(Costs(first, between)))
+    assert {tour.order: pytest.approx(tour.length) for tour in tours} == {
+        order: length for order, length in best.items() if length < math.inf
+    }
+    assert [tour.length for tour in tours] == sorted(tour.length for tour in tours)
+    for tour in tours:
+        stops = list(zip(tour.order, tour.places, strict=True))
+        driven = first[stops[0][0]][stops[0][1]] + sum(
+            between[i, j][a, b] for (i, a), (j, b) in itertools.pairwise(stops)
+        )
+        assert driven == pytest.approx(tour.length)
+
+
+def test_larger_worlds_are_as_dense_as_the_papers() -> None:
+    for count in (8, 32, 256):
+        world = tiled_world(count, 1)
+        tiles = world['bounds'][2] * world['bounds'][3] / (800 * 600)
+        assert tiles == count / PER_TILE
+        assert len(world['obstacles']) == 13 * tiles
+        assert len(world['objects']) == count + 1
+
+
+def test_the_exponent_is_that_of_a_power() -> None:
+    told = {n: {'time': {'median': 0.01 * n**1.5}} for n in (8, 16, 32)}
+    assert fitted(told, 'time') == pytest.approx(1.5)
