@@ -16,7 +16,7 @@ from scipy.sparse.csgraph import minimum_spanning_tree
 
 from experiments.motion.worlds import ROVER
 from motion_planner_node.world import read_world
-from motion_planner_node.world.model import Circle, Obstacle, Polygon, World
+from motion_planner_node.world.model import Obstacle, Polygon, World
 
 Point = tuple[float, float]
 START = 'location0'
@@ -69,8 +69,6 @@ def grown(obstacle: Obstacle, margin: float) -> shapely.Polygon:
     """A polygon that keeps ``margin`` [m] from an obstacle, with as many corners as that has."""
     if isinstance(obstacle, Polygon):
         return shapely.Polygon(obstacle.corners).buffer(margin, join_style='mitre')
-    if not isinstance(obstacle, Circle):
-        raise TypeError(f'an obstacle of an unknown kind: {obstacle.name}')
     (x, y), reach = obstacle.center, (obstacle.radius + margin) / cos(pi / SIDES)
     turns = [tau * side / SIDES for side in range(SIDES)]
     return shapely.Polygon([(x + reach * cos(turn), y + reach * sin(turn)) for turn in turns])

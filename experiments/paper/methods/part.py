@@ -40,7 +40,7 @@ class Sizes:
 
 
 FULL = Sizes(tuple(range(1, 16)), (1, 8, 15), 20, 2.0)
-QUICK = Sizes((1, 3), (1, 3), 2, 2.0)
+QUICK = Sizes((1, 3), (1, 3), 1, 2.0)
 
 
 def measure(sizes: Sizes, seed: int, folder: Path) -> Part:

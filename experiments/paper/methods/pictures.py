@@ -19,7 +19,7 @@ from matplotlib.patches import Polygon as Outline
 from experiments.paper.methods.graphs import START, Graph
 from experiments.paper.methods.summary import by_size, spread
 from experiments.paper.methods.trials import ATTITUDES_NAME, Trial
-from motion_planner_node.world.model import Circle, Polygon, World
+from motion_planner_node.world.model import Polygon, World
 
 COLOURS = {'blind': 'tab:blue', 'nearest first': 'tab:orange', 'hybrid': 'tab:green'}
 TITLES = {
@@ -49,7 +49,7 @@ def draw_graphs(graphs: Sequence[Graph], world: World, stem: Path) -> Path:
         for obstacle in world.obstacles:
             if isinstance(obstacle, Polygon):
                 axes.add_patch(Outline(obstacle.corners, color='0.35'))
-            elif isinstance(obstacle, Circle):
+            else:
                 axes.add_patch(Disc(obstacle.center, obstacle.radius, color='0.35'))
         lines = [(graph.points[a], graph.points[b]) for a, b in graph.arcs if a < b]
         axes.add_collection(LineCollection(lines, colors='tab:blue', lw=0.4))
@@ -91,7 +91,7 @@ def _draw(
     value: Callable[[Trial], float],
 ) -> Path:
     figure, panels = plt.subplots(
-        1, len(graphs), figsize=(12.0, 5.0), layout='constrained', sharey=True
+        1, len(graphs), figsize=(12.0, 5.4), layout='constrained', sharey=True
     )
     for axes, graph in zip(panels, graphs, strict=True):
         for (name, method), members in trials.items():
@@ -103,7 +103,9 @@ def _draw(
         axes.set_title(title_of(graph), fontsize=10)
         axes.grid(alpha=0.3)
     panels[0].set_ylabel(label)
-    panels[0].legend(fontsize=8)
+    figure.legend(
+        *panels[0].get_legend_handles_labels(), loc='outside lower center', ncols=4, fontsize=8
+    )
     return save(figure, stem)
 
 

@@ -1,0 +1,236 @@
+"""The paper's example and Figures 6 and 7 in a reduced form: counts, lengths and attitudes, never seconds."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+from typing import get_type_hints
+
+import numpy as np
+import pytest
+import shapely
+
+from experiments.paper import worked_example
+from experiments.paper.derived_codes import checks
+from experiments.paper.methods import part as methods
+from experiments.paper.methods.graphs import (
+    START,
+    Graph,
+    literal_graph,
+    rover_world,
+    visibility_graph,
+)
+from experiments.paper.methods.oracles import ShortestPaths
+from experiments.paper.methods.summary import compare, slopes
+from experiments.paper.methods.trials import ATTITUDES_NAME, METHODS, Trial
+from experiments.paper.part import Part
+from experiments.pictures.penalty import iterates
+from experiments.pictures.solver import EXAMPLE, RING
+from motion_planner_node.world.model import Polygon
+from task_planner_node.oracle import Query, Status
+
+Trials = dict[tuple[str, str], list[Trial]]
+
+
+@pytest.fixture(scope='module')
+def graphs() -> tuple[Graph, Graph]:
+    world = rover_world()
+    dense = visibility_graph(world)
+    return dense, literal_graph(dense, world, 1)
+
+
+@pytest.fixture(scope='module')
+def measured(tmp_path_factory: pytest.TempPathFactory) -> tuple[Part, Path]:
+    folder = tmp_path_factory.mktemp('methods')
+    return methods.measure(methods.QUICK, 1, folder), folder
+
+
+@pytest.fixture(scope='module')
+def all_trials(measured: tuple[Part, Path]) -> Trials:
+    """The trials that the part has written, by graph and method."""
+    found: Trials = defaultdict(list)
+    with (measured[1] / 'trials.csv').open(encoding='utf-8') as file:
+        for row in csv.DictReader(file):
+            values = {name: kind(row[name]) for name, kind in get_type_hints(Trial).items()}
+            trial = Trial(**values)
+            found[trial.graph, trial.method].append(trial)
+    return found
+
+
+@pytest.fixture(scope='module', params=['swapped', 'literal'])
+def trials(request: pytest.FixtureRequest, all_trials: Trials) -> dict[str, list[Trial]]:
+    return {
+        method: members for (graph, method), members in all_trials.items() if graph == request.param
+    }
+
+
+@pytest.fixture(scope='module')
+def example(tmp_path_factory: pytest.TempPathFactory) -> tuple[Part, Path]:
+    folder = tmp_path_factory.mktemp('example')
+    return worked_example.measure(worked_example.QUICK, 1, folder), folder
+
+
+def total(trials: Sequence[Trial]) -> tuple[int, float]:
+    return sum(trial.work for trial in trials), sum(trial.length for trial in trials)
+
+
+def test_the_worked_example_is_the_papers_but_for_its_rounding(
+    example: tuple[Part, Path],
+) -> None:
+    part, folder = example
+    figures = part.figures['worked_example']
+    assert figures['r1'] == pytest.approx([39.7101, 67.1499, 0.0], abs=1e-4)
+    assert figures['distance'] == pytest.approx(20.0)
+    assert figures['step_length'] == 1.0
+    assert figures['default_distance'] <= 20.0
+    assert figures['least_penalty_with_printed_signs'] == pytest.approx(25.0)
+    assert all(target.met for target in part.targets)
+    assert '39.7101' in part.text
+    for name in ('penalty.svg', 'penalty.png', 'table_2.csv'):
+        assert (folder / name).stat().st_size > 0
+
+
+def test_derived_codes_agree_with_differences_and_a_wrong_one_does_not(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found = checks(300, 5)
+    printed = [check for check in found if not math.isnan(check.printed)]
+    assert len(printed) == 4
+    assert all(check.printed < 1e-6 and check.kept for check in printed)
+    assert all(check.library < 1e-6 for check in found)
+    assert not any(check.kept for check in found if math.isnan(check.printed))
+    wrong = {('distance f1', 'x'): lambda dx, dy, _: dx / np.hypot(dx, dy)}
+    monkeypatch.setattr('experiments.paper.derived_codes.DERIVED', wrong)
+    assert max(check.printed for check in checks(300, 5) if not math.isnan(check.printed)) > 1.0
+
+
+def test_iterates_of_the_default_descent_end_where_the_constraints_are_met() -> None:
+    program = EXAMPLE.program(RING)
+    states = iterates(program, np.array([20.0, 100.0, 0.0]))
+    assert states[0].tolist() == [20.0, 100.0, 0.0]
+    assert len(states) >= 2
+    assert math.dist(states[-1][:2], (50.0, 50.0)) <= 20.0
+
+
+def test_both_readings_of_the_graph(graphs: tuple[Graph, Graph]) -> None:
+    dense, sparse = graphs
+    assert 60 <= len(dense.points) <= 80
+    assert 900 <= len(dense.arcs) <= 1300
+    assert (len(sparse.points), len(sparse.arcs)) == (1126, 70)
+    assert len(sparse.goals) >= 15
+    world = rover_world()
+    obstacles = shapely.union_all(
+        [
+            shapely.Polygon(obstacle.corners)
+            if isinstance(obstacle, Polygon)
+            else shapely.Point(obstacle.center).buffer(obstacle.radius)
+            for obstacle in world.obstacles
+        ]
+    )
+    (robot,) = world.robots.values()
+    for graph in graphs:
+        for (a, b), length in graph.arcs.items():
+            ends = graph.points[a], graph.points[b]
+            assert graph.arcs[b, a] == length == pytest.approx(math.dist(*ends))
+            assert shapely.LineString(ends).distance(obstacles) > robot.radius - 1e-3
+        assert np.isfinite(shortest(graph)).all()
+
+
+def shortest(graph: Graph) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
+    """Lengths between all joined waypoints, by Floyd and Warshall."""
+    labels = graph.joined
+    lengths = np.full((len(labels), len(labels)), np.inf)
+    np.fill_diagonal(lengths, 0.0)
+    for (a, b), length in graph.arcs.items():
+        lengths[labels.index(a), labels.index(b)] = length
+    for k in range(len(labels)):
+        lengths = np.minimum(lengths, lengths[:, k, None] + lengths[None, k])
+    return lengths
+
+
+def test_the_external_reasoner_answers_with_shortest_ways(graphs: tuple[Graph, Graph]) -> None:
+    for graph in graphs:
+        paths, labels, lengths = ShortestPaths(graph), graph.joined, shortest(graph)
+        start = labels.index(START)
+        for number, goal in enumerate(labels):
+            answer = paths.satisfy(Query((), f'((agent r)(object {goal}))', START, 0))
+            assert answer.status == Status.FOUND
+            assert answer.length == pytest.approx(lengths[start, number])
+            way = answer.payload
+            assert isinstance(way, list)
+            assert (way[0], way[-1]) == (START, goal)
+            driven = sum(graph.arcs[arc] for arc in pairwise(way))
+            assert driven == pytest.approx(answer.length)
+    alone = next(label for label in graphs[1].points if label not in graphs[1].joined)
+    answer = ShortestPaths(graphs[1]).satisfy(Query((), f'((object {alone}))', START, 0))
+    assert answer.status == Status.IMPOSSIBLE
+
+
+def test_linear_matching_costs_the_symbolic_search_most(trials: dict[str, list[Trial]]) -> None:
+    assert all(trial.solved for members in trials.values() for trial in members)
+    work = {label: total(members)[0] for label, members in trials.items()}
+    assert work['blind, linear'] > 12 * work['hybrid, linear']
+    assert work['nearest first, linear'] > work['blind, linear']
+    for name in ('blind', 'nearest first', 'hybrid'):
+        assert work[f'{name}, indexed'] < work[f'{name}, linear'] / 5
+    assert [trial.requests for trial in trials['hybrid, linear']] == [1, 3]
+    assert not any(trial.requests for trial in trials['blind, linear'])
+
+
+def test_matching_does_not_change_the_plans(trials: dict[str, list[Trial]]) -> None:
+    for name in ('blind', 'nearest first', 'hybrid'):
+        linear, indexed = trials[f'{name}, linear'], trials[f'{name}, indexed']
+        assert [(t.length, t.steps) for t in linear] == [(t.length, t.steps) for t in indexed]
+    blind, circles = trials['blind, linear'], trials['blind, circles left to the search, linear']
+    assert [trial.length for trial in blind] == [trial.length for trial in circles]
+
+
+def test_the_hybrid_drives_less(trials: dict[str, list[Trial]]) -> None:
+    for label in ('blind, linear', 'nearest first, linear'):
+        found = compare(trials[label], trials['hybrid, linear'])
+        assert found.sizes_with_hybrid_shorter == 2
+        assert all(ratio.least >= 1.0 - 1e-9 for ratio in found.length_ratios.values())
+
+
+def test_attitudes_make_ways_shorter_than_from_waypoint_to_waypoint(all_trials: Trials) -> None:
+    driven = all_trials['swapped', ATTITUDES_NAME]
+    paths = all_trials['swapped', 'hybrid, linear']
+    assert ('literal', ATTITUDES_NAME) not in all_trials
+    assert all(trial.solved and trial.requests >= trial.goals for trial in driven)
+    assert total(driven)[1] < total(paths)[1]
+
+
+def trial(goals: int, number: int, seconds: float, outcome: str = 'SOLVED') -> Trial:
+    length = 100.0 * goals if outcome == 'SOLVED' else math.nan
+    return Trial('g', 'm', goals, number, outcome, seconds, length, 10 * goals, 0, 0, goals)
+
+
+def test_slopes_are_those_of_the_trials_with_a_plan() -> None:
+    members = [trial(n, k, 0.5 + 0.1 * (k + 1) * n) for n in (1, 2, 3, 4) for k in (0, 1)]
+    members[-1] = trial(4, 1, 99.0, 'CANCELLED')
+    assert slopes(members) == pytest.approx({0: 0.1, 1: 0.2})
+    hybrid = [replace(trial(n, k, 0.01 * n), length=80.0 * n) for n in (1, 2, 3, 4) for k in (0, 1)]
+    found = compare(members, hybrid)
+    assert found.unsolved == 1
+    assert found.slope_ratio.median == pytest.approx(15.0)
+    assert (found.hybrid_shorter, found.compared) == (7, 7)
+    assert {ratio.median for ratio in found.length_ratios.values()} == {1.25}
+
+
+def test_the_part_tells_what_was_measured(measured: tuple[Part, Path], all_trials: Trials) -> None:
+    part, folder = measured
+    lengths = [t for t in part.targets if t.name.startswith('numbers of goals')]
+    assert len(lengths) == 4
+    assert all(t.met for t in lengths if 'swapped' in t.name)
+    assert len(part.claims) == 3
+    assert all(method in part.text for _, method in all_trials)
+    assert len(all_trials) == 2 * len(METHODS) + 1
+    assert all(len(members) == 2 for members in all_trials.values())
+    for name in ('graphs', 'figure_6', 'figure_7'):
+        assert (folder / f'{name}.svg').stat().st_size > 0
+        assert (folder / f'{name}.png').read_bytes().startswith(b'\x89PNG')
