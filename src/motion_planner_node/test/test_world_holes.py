@@ -64,9 +64,7 @@ def read(directory: Path, *found: Any) -> World:
 
 @settings(max_examples=40, deadline=None)
 @given(rings(), st.integers(0, 2**32 - 1))
-def test_clearance_is_the_distance_from_the_ring(
-    shape: tuple[Ring, list[Ring]], seed: int
-) -> None:
+def test_clearance_is_the_distance_from_the_ring(shape: tuple[Ring, list[Ring]], seed: int) -> None:
     world, peer = world_of(*shape), shapely.Polygon(*shape)
     assume(peer.is_valid)
     points = np.random.default_rng(seed).uniform(0.0, 100.0, (40, 2))
