@@ -20,7 +20,7 @@ def steps_from(numbers: NDArray[np.int32], row: int, column: int) -> NDArray[np.
     at least k - 1 sides long, whatever it looks like. That holds of no other weight of the steps
     across corners: along a row of corners the straight line takes one every side.
     """
-    rows, columns = numbers.shape
+    columns = numbers.shape[1]
     steps = np.zeros(numbers.max() + 1, np.int32)
     queue = np.empty(len(steps), np.int32)
     seen = (numbers < 0).copy()
