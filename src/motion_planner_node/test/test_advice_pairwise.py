@@ -142,7 +142,6 @@ def test_of_many_candidates_each_costs_what_it_costs_among_few() -> None:
     bounds, estimates = matrices(PLANNER.advise(AdviceRequest(texts, START, pairwise=True)))
     assert np.array_equal(bounds[:COUNT, :COUNT], BOUNDS)
     assert np.array_equal(bounds, np.tile(BOUNDS, (40, 40)))
-    # Fewer destinations stand for the others.
-    apart = ~np.eye(COUNT, dtype=bool)
-    assert (estimates[:COUNT, :COUNT][apart] <= 1.5 * ESTIMATES[apart] + 50.0).all()
+    # Fewer destinations stand for the others: both ends may be others in rings 150 m wide.
+    assert (np.abs(estimates[:COUNT, :COUNT] - ESTIMATES) <= 300.0).all()
     assert (estimates >= bounds).all()
