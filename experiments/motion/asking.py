@@ -19,8 +19,6 @@ from motion_planner_node.requests import GeometricAnswer, GeometricRequest
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.world import read_world
 
-#: Alternatives of each request that are asked for: 5,000 requests give more than 10,000 motions.
-ALTERNATIVES = 3
 #: Requests with another seed before the measurement, after which nothing is left to compile.
 WARM_UP = 3
 
@@ -64,8 +62,8 @@ def request_of(known: Known, alternative: int = 0, planner: str = '') -> Geometr
     )
 
 
-def ask(place: Place, known: Sequence[Known], alternatives: int = ALTERNATIVES) -> list[Outcome]:
-    """Ask each request, and for its alternatives; only the first answer's time counts."""
+def ask(place: Place, known: Sequence[Known], alternatives: int) -> list[Outcome]:
+    """Ask each request, and for so many ``alternatives`` in all; only the first answer's time counts."""
     planner, checker = planner_for(place), Checker(place)
     for one in known[:WARM_UP]:
         planner.satisfy(replace(request_of(one), seed=one.number + 1_000_000))

@@ -20,7 +20,7 @@ from motion_planner_node.paths import PLANNERS, plan_path
 from motion_planner_node.world.scene import Scene
 
 #: [s] after which a planner is told to stop; it then counts as one that found nothing.
-PATIENCE = 10.0
+PATIENCE = 3.0
 
 
 def _limit(end: float) -> Callable[[], bool]:

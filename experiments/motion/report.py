@@ -22,8 +22,8 @@ The figures of `make experiment-motion` on one machine, written by the experimen
   angle, a place near an object, a place and heading for docking, a ring from which an object is in view, an angle to an
   object and a distance from two, a ring with a heading. The motion planner chooses the destination and the path.
 - **The reference** (`python -m experiments.motion.reference`) is an exhaustive search of its own over x, y and heading:
-  the car's three commands, 32 headings, each step a 32nd of a full turn, cells of three quarters of a step, where nothing is
-  found once more with 48 headings; words of Dubins from the states near the goal to attitudes of the goal; then local moves of the
+  the car's three commands, 32 headings, each step a 32nd of a full turn, cells of three quarters of a step, where all was
+  looked at in vain once more with 48 headings; words of Dubins from the states near the goal to attitudes of the goal; then local moves of the
   whole way and of its end within the goal, until nothing gets shorter. It shares no code with the motion planner. Its lengths
   are upper bounds of the shortest; where the motion planner is shorter, ratios are below 1. Requests
   that it searched in vain are left out; how many is told.
@@ -124,11 +124,15 @@ def _factor(value: float) -> str:
 
 
 def page(
-    sections: Iterable[tuple[str, str]], machine: Mapping[str, Any], images: Iterable[str]
+    sections: Iterable[tuple[str, str]],
+    machine: Mapping[str, Any],
+    images: Iterable[str],
+    is_quick: bool,
 ) -> str:
-    """docs/motion-benchmark.md."""
+    """docs/motion-benchmark.md; of a quick run it says so."""
     today = datetime.now(timezone.utc).date().isoformat()
     where = f'{machine["cores"]} cores of {machine["cpu"]}, Python {machine["python"]}'
+    extent = ' with `--quick`: a few of everything, to see the form and no more' if is_quick else ''
     body = '\n\n'.join(f'## {title}\n\n{text}' for title, text in sections)
     pictures = '\n\n'.join(f'![{name}](images/{name}.png)' for name in images)
-    return f'{INTRODUCTION}\nMeasured on {today}, {where}.\n\n{body}\n\n{pictures}\n'
+    return f'{INTRODUCTION}\nMeasured on {today}, {where}{extent}.\n\n{body}\n\n{pictures}\n'

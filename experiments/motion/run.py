@@ -10,7 +10,9 @@ import argparse
 import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import ceil
 from pathlib import Path
+from time import perf_counter
 from typing import Any
 
 from experiments.motion import report
@@ -32,12 +34,14 @@ class Sizes:
     """How much is measured.
 
     requests, legs, compared: of each world, for the reference, for the curve, for all planners
+    motions: that are judged at least, when each request has as many alternatives as are asked for
     patience: [s] that RRTConnect may take for a leg
     rounds, stopped, exchanges: times that advice, deadlines and the service are tried
     asked, early: requests after which memory is looked at
     """
 
     requests: int = 1000
+    motions: int = 10_500
     legs: int = 80
     patience: float = 1.0
     compared: int = 24
@@ -50,6 +54,7 @@ class Sizes:
 
 QUICK = Sizes(
     requests=20,
+    motions=100,
     legs=4,
     patience=0.3,
     compared=4,
@@ -94,9 +99,12 @@ class Experiment:
             }
             for name, reference in self.references.items()
         }
+        asked = {name: self.known(name, self.sizes.requests) for name in self.references}
+        # As many alternatives of each as make enough motions, and so many where there are fewer.
+        alternatives = ceil(self.sizes.motions / sum(map(len, asked.values())))
         worlds = {}
-        for name in self.references:
-            outcomes = ask(self.places[name], self.known(name, self.sizes.requests))
+        for name, known in asked.items():
+            outcomes = ask(self.places[name], known, alternatives)
             worlds[name] = summary(outcomes)
             print(f'{name}: {len(outcomes)} requests asked', flush=True)
         self.figures['reference'] = coverage
@@ -246,12 +254,14 @@ def main() -> None:
     warm_up()
     experiment = Experiment(sizes, arguments.output, arguments.world or list(WORLDS))
     for part in arguments.only or PARTS:
+        began = perf_counter()
         getattr(experiment, f'run_{part}')()
+        print(f'{part}: {perf_counter() - began:.0f} s', flush=True)
     experiment.show('Targets', '\n'.join(f'- {target}' for target in experiment.targets))
     path = write_results(arguments.output, 1, experiment.figures, experiment.targets)
     print(f'\nwritten: {path}')
     if arguments.page:
-        page = report.page(experiment.sections, machine(), IMAGES.values())
+        page = report.page(experiment.sections, machine(), IMAGES.values(), arguments.quick)
         arguments.page.write_text(page, encoding='utf-8')
         for image in IMAGES.values():
             name = f'{image}.png'

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Iterable, Sequence
 
 from geohtn_msgs import msg
@@ -149,8 +150,9 @@ def advice_to_msg(
         world_revision=answer.world_revision,
         candidates=[_candidate_to_msg(candidate) for candidate in answer.candidates],
         order=[int(index) for index in answer.order],
-        pairwise_lower_bounds=list(answer.pairwise_lower_bounds),
-        pairwise_estimates=list(answer.pairwise_estimates),
+        # An array is taken as it is; of a list a million numbers would be checked one by one.
+        pairwise_lower_bounds=array('d', answer.pairwise_lower_bounds),
+        pairwise_estimates=array('d', answer.pairwise_estimates),
         ends=[agent_state_to_msg(*end) if end else msg.AgentState() for end in answer.ends],
         tour_length=float(answer.tour_length),
         opportunities=[

@@ -5,10 +5,12 @@ from __future__ import annotations
 from math import hypot, inf, pi
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from motion_planner_node.advice.costs import nearest_of_each
 from motion_planner_node.codes import Code, Scope, Status
 from motion_planner_node.errors import MotionPlannerError, Stopped
 from motion_planner_node.parameters import Parameters
@@ -65,6 +67,38 @@ def test_the_lower_bound_is_close_to_the_straight_way() -> None:
     (candidate,) = PLANNER.advise(AdviceRequest((text,), START)).candidates
     straight = hypot(772 - 20, 301 - 20) - 60.0
     assert straight - 5.0 <= candidate.lower_bound <= straight
+
+
+def test_the_lower_bound_goes_round_a_wall() -> None:
+    text = """
+bounds: [0, 0, 100, 60]
+objects: {goal: {x: 60, y: 5}}
+obstacles: [{polygon: [[48, 0], [50, 0], [50, 50], [48, 50]]}]
+robots: {car: {model: differential, radius: 1, speed: 1, turning_speed: 1}}
+"""
+    planner = MotionPlanner(read_world(text, 'wall.yaml'))
+    near = '((agent car)(object goal)(distance(car, goal) <= 2))'
+    start = {'car': Attitude(40.0, 5.0, 0.0)}
+    (candidate,) = planner.advise(AdviceRequest((near,), start)).candidates
+    answer = planner.satisfy(GeometricRequest(near, start))
+    # Up to the gap, which begins at 51, and down again to the disc of 2 m round the goal.
+    assert 46.0 + 44.0 - 2.0 <= candidate.lower_bound <= answer.length
+
+
+@settings(max_examples=100, deadline=None)
+@given(
+    st.lists(st.lists(st.sampled_from([0.0, 1.0, 1.5, 2.0, inf]), max_size=6), min_size=1),
+    st.integers(1, 4),
+)
+def test_the_nearest_of_each_group(groups: list[list[float]], most: int) -> None:
+    values = np.array([value for group in groups for value in group])
+    counts = np.array([len(group) for group in groups])
+    wanted, first = [], 0
+    for group in groups:
+        order = sorted(range(len(group)), key=lambda index: (group[index], index))
+        wanted += [first + index for index in order[:most]]
+        first += len(group)
+    assert nearest_of_each(values, counts, most).tolist() == wanted
 
 
 def test_the_order_is_nearest_first_with_impossible_ones_last() -> None:

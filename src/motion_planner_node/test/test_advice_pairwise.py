@@ -107,8 +107,8 @@ def test_nothing_leads_to_what_is_impossible_or_wrong_and_commands_cost_nothing(
 
 def test_pairwise_costs_are_bounded_in_work_and_can_be_stopped() -> None:
     assert PLANNER.advise(AdviceRequest((), START, pairwise=True)).pairwise_estimates == ()
-    with pytest.raises(MotionPlannerError, match='513 candidates are too many'):
-        PLANNER.advise(AdviceRequest((TEXTS[0],) * 513, START, pairwise=True))
+    with pytest.raises(MotionPlannerError, match='1001 candidates are too many'):
+        PLANNER.advise(AdviceRequest((TEXTS[0],) * 1001, START, pairwise=True))
     questions = 0
 
     def late() -> bool:
@@ -135,3 +135,13 @@ def test_two_robots_do_not_start_where_the_other_one_ends() -> None:
     assert estimates[1, 0] == answer.candidates[0].estimate
     assert answer.candidates[2].lower_bound > 0.0
     assert bounds[0, 2] == 0.0
+
+
+def test_of_many_candidates_each_costs_what_it_costs_among_few() -> None:
+    texts = TEXTS * 40
+    bounds, estimates = matrices(PLANNER.advise(AdviceRequest(texts, START, pairwise=True)))
+    assert np.array_equal(bounds[:COUNT, :COUNT], BOUNDS)
+    assert np.array_equal(bounds, np.tile(BOUNDS, (40, 40)))
+    # Fewer destinations stand for the others: both ends may be others in rings 150 m wide.
+    assert (np.abs(estimates[:COUNT, :COUNT] - ESTIMATES) <= 300.0).all()
+    assert (estimates >= bounds).all()

@@ -169,3 +169,30 @@ def test_the_node_ends_in_the_middle_of_a_request() -> None:
         output, _ = process.communicate(timeout=DEADLINE)
     assert process.returncode == 0
     assert 'Traceback' not in output
+
+
+def test_clients_and_a_new_world_under_load_disturb_no_answer(rover: Client) -> None:
+    """Each answer is the one that its world gives when nothing else is asked."""
+    texts = [NEAR.format(f'location{number}') for number in range(1, 7)]
+
+    def plain(answer: Any) -> Any:
+        answer.time_spent, answer.request_id = 0.0, ''
+        return answer
+
+    alone: dict[str, list[Any]] = {}
+    for world in (OTHER, TEXT):
+        revision = rover.set_world(world).revision
+        alone[revision] = [plain(rover.satisfy(text)) for text in texts]
+    clients = [rover, Client()]
+    try:
+        clients[1].settle()
+        futures = [(client, client.begin(text)) for text in texts for client in clients]
+        changed = rover.set_world(OTHER)
+        futures += [(client, client.begin(text)) for text in texts for client in clients]
+        answers = [client.wait_for(future).answer for client, future in futures]
+    finally:
+        clients[1].close()
+    for number, answer in enumerate(answers):
+        assert plain(answer) == alone[answer.world_revision][number // 2 % len(texts)]
+    # What was asked for after the change was answered is about the new world.
+    assert {answer.world_revision for answer in answers[len(answers) // 2 :]} == {changed.revision}

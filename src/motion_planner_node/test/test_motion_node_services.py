@@ -271,3 +271,17 @@ def test_a_broken_package_of_functions_keeps_the_node_from_starting(tmp_path: Pa
     assert done.returncode == 2
     assert 'the plugin sensors (no_such_module:FUNCTIONS) cannot be loaded' in done.stderr
     assert 'Traceback' not in done.stdout + done.stderr
+
+
+def test_pairwise_costs_of_a_thousand_candidates_come_through(rover: Asker) -> None:
+    set_here = (
+        '((agent rover0)(setProperty(rover0.x, 20))(setProperty(rover0.y, 20))'
+        '(setProperty(rover0.heading, 0)))'
+    )
+    texts = [PHOTO.format('location1'), PHOTO.format('location2'), *[set_here] * 998]
+    answer = rover.advise(*texts, pairwise=True)
+    assert len(answer.candidates) == len(answer.order) == 1000
+    for matrix in (answer.pairwise_lower_bounds, answer.pairwise_estimates):
+        assert len(matrix) == 1_000_000
+        assert matrix[1] == matrix[1000] > 0.0
+        assert matrix[1001] == matrix[2] == 0.0

@@ -20,6 +20,8 @@ from motion_planner_node.paths import (
     portfolio,
 )
 from motion_planner_node.paths import planner as planning
+from motion_planner_node.paths.finishing import motion_along
+from motion_planner_node.paths.improving import refined, simplified
 from motion_planner_node.paths.query import Query
 from motion_planner_node.robots.motion import Attitude, Motion
 from motion_planner_node.robots.robot import Robot
@@ -143,6 +145,14 @@ def test_a_simplifier_that_breaks_paths_is_caught(monkeypatch: pytest.MonkeyPatc
     assert result.motion is not None
     assert faults(scene, CAR, result.motion, GOALS[1]) == []
     assert result.motion.length > honest.motion.length
+
+
+def test_a_path_that_is_not_free_is_left_to_the_exact_check() -> None:
+    rows = np.array([[goal.x, goal.y, goal.heading] for goal in (START, GOALS[1])])
+    query = Query(scene_of(WALL), CAR, START, rows[1:], 1, PathBudget(), never, lambda near: near)
+    assert motion_along(query, rows) is None
+    assert np.array_equal(simplified(query, rows), rows)
+    assert np.array_equal(refined(query, rows), rows)
 
 
 def test_a_region_gives_better_ends() -> None:

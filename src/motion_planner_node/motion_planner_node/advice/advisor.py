@@ -34,8 +34,6 @@ from motion_planner_node.world.model import World
 
 #: Candidates of one request at most.
 MOST_CANDIDATES = 1000
-#: Candidates of one request for pairwise costs at most: more would take many seconds.
-MOST_PAIRED = 512
 
 
 class Advisor:
@@ -68,11 +66,6 @@ class Advisor:
         if count > MOST_CANDIDATES:
             raise MotionPlannerError(
                 Code.UNSUPPORTED, f'{count} candidates are too many: {MOST_CANDIDATES} at most'
-            )
-        if request.pairwise and count > MOST_PAIRED:
-            raise MotionPlannerError(
-                Code.UNSUPPORTED,
-                f'{count} candidates are too many for pairwise costs: {MOST_PAIRED} at most',
             )
         check_purpose(self._world, request)
         state = checked_state(self._world, request.start)

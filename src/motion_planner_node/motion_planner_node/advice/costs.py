@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from motion_planner_node.advice.survey import Reach, Survey
 from motion_planner_node.planning.ground import Ground
+from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.robots.motion import Attitude
 
 #: What a motion may end short of exactly meeting a constraint [m]; taken off lower bounds.
@@ -38,12 +39,17 @@ def grouped(driven: Mapping[int, Driven]) -> list[tuple[str, list[int]]]:
 def lower_bounds(ground: Ground, start: Attitude, reaches: Sequence[Reach]) -> NDArray[np.float64]:
     """Lengths [m], shape (n,), that no motion from ``start`` into what ``reaches`` hold is below.
 
-    The straight distances to the nearest cells outside of which there is no destination.
+    The larger of the straight distance to the nearest cell outside of which there is no destination,
+    and of what a chain of cells that may be free leads to one of them.
     """
     rims = np.concatenate([reach.rim for reach in reaches])
     dx = np.maximum(np.maximum(rims[:, 0] - start.x, start.x - rims[:, 2]), 0.0)
     dy = np.maximum(np.maximum(rims[:, 1] - start.y, start.y - rims[:, 3]), 0.0)
-    nearest = np.sqrt(np.minimum.reduceat(dx * dx + dy * dy, _firsts([r.rim for r in reaches])))
+    firsts = _firsts([reach.rim for reach in reaches])
+    straight = np.sqrt(np.minimum.reduceat(dx * dx + dy * dy, firsts))
+    outermost = np.concatenate([reach.outermost for reach in reaches])
+    around = np.minimum.reduceat(ground.least_ways(start)[outermost], firsts)
+    nearest = np.maximum(straight, around)
     cell = ground.cell_of(start)
     inside = np.array([cell >= 0 and reach.holds(cell) for reach in reaches])
     # The last bits of the root and the squares are on the safe side of the slack.
@@ -67,17 +73,29 @@ def estimates(ground: Ground, start: Attitude, reaches: Sequence[Reach]) -> NDAr
     return np.asarray(np.minimum.reduceat(lengths, firsts))
 
 
+@kernel
 def nearest_of_each(
     values: NDArray[np.float64], counts: NDArray[np.int64], most: int
 ) -> NDArray[np.int64]:
     """Indices of the ``most`` smallest of ``values`` in each group, groups in their order.
 
-    The groups lie next to each other and have ``counts`` members.
+    The groups lie next to each other and have ``counts`` members. The smallest come first, of equal
+    ones the one with the lower index.
     """
-    owner = np.repeat(np.arange(len(counts)), counts)
-    order = np.lexsort((values, owner))
-    place = np.arange(len(values)) - np.repeat(np.cumsum(counts) - counts, counts)
-    return order[place < most]
+    chosen = np.empty(np.minimum(counts, most).sum(), np.int64)
+    begin, end, first = 0, 0, 0
+    for count in counts:
+        for index in range(first, first + count):
+            at = end
+            while at > begin and values[index] < values[chosen[at - 1]]:
+                at -= 1
+            if at - begin < most:
+                end = min(end + 1, begin + most)
+                for moved in range(end - 1, at, -1):
+                    chosen[moved] = chosen[moved - 1]
+                chosen[at] = index
+        begin, first = end, first + count
+    return chosen
 
 
 def _firsts(parts: Sequence[NDArray[np.float64]]) -> NDArray[np.int64]:

@@ -24,7 +24,10 @@ MOST_BOXES = 64
 WAYS = 64
 #: Destinations that stand for all of a candidate at most, as places to come from.
 MOST_ORIGINS = 4
-#: Destinations of a candidate, the nearest round the obstacles, whose steering is looked at.
+#: Destinations to which ways are worked out, from each that stands for others, and those of them
+#: whose steering is looked at, of all candidates together.
+MOST_TARGETS, ALL_STEERED = 8192, 1024
+#: Destinations of a candidate, the nearest round the obstacles, whose steering is looked at, at most.
 STEERED = 4
 
 
@@ -73,6 +76,7 @@ def lower_bounds(reaches: Sequence[Reach], should_stop: ShouldStop) -> Matrix:
     :raises Stopped: when ``should_stop`` said so
     """
     covers = [_cover(reach.rim) for reach in reaches]
+    around = np.array([_around(cover) for cover in covers])
     boxes = np.concatenate(covers)
     ends = np.cumsum([len(cover) for cover in covers])
     cells = np.stack([reach.cells for reach in reaches])
@@ -82,8 +86,8 @@ def lower_bounds(reaches: Sequence[Reach], should_stop: ShouldStop) -> Matrix:
     shared = np.zeros((len(reaches), len(reaches)), np.bool_)
     for one, reach in enumerate(reaches):
         go_on(should_stop)
-        _distances(boxes, ends, one, result[one])
-        _find_shared(cells, reach.outermost, shared[one])
+        _distances(boxes, ends, around, one, result[one])
+        _find_shared(cells, reach.outermost, around, one, shared[one])
     result = np.where(shared | shared.T, 0.0, np.maximum(result, result.T))
     return np.maximum(0.0, result * (1.0 - 1e-12) - SLACK)
 
@@ -97,20 +101,20 @@ def estimates(ground: Ground, reaches: Sequence[Reach], should_stop: ShouldStop)
     :raises Stopped: when ``should_stop`` said so
     """
     count = len(reaches)
-    states = np.concatenate([reach.states for reach in reaches])
-    counts = np.array([len(reach.states) for reach in reaches])
-    firsts = np.cumsum(counts) - counts
-    owner = np.repeat(np.arange(count), counts)
     origins = max(1, min(MOST_ORIGINS, WAYS // count))
+    most = max(STEERED, MOST_TARGETS // count)
+    steered = max(1, min(STEERED, ALL_STEERED // count))
+    chosen = [reach.states[spread(len(reach.states), most)] for reach in reaches]
+    states, counts = np.concatenate(chosen), np.array([len(part) for part in chosen])
+    owner = np.repeat(np.arange(count), counts)
     result = np.full((count, count), np.inf)
-    for one in range(count):
-        for index in firsts[one] + spread(int(counts[one]), origins):
+    for one, reach in enumerate(reaches):
+        for origin in reach.states[spread(len(reach.states), origins)]:
             go_on(should_stop)
-            origin = states[index]
             around = ground.ways_round(Attitude(*map(float, origin)), states)
-            chosen = nearest_of_each(around, counts, STEERED)
-            lengths = np.maximum(around[chosen], ground.steered(origin, states[chosen]))
-            begins = np.searchsorted(owner[chosen], np.arange(count))
+            near = nearest_of_each(around, counts, steered)
+            lengths = np.maximum(around[near], ground.steered(origin, states[near]))
+            begins = np.searchsorted(owner[near], np.arange(count))
             result[one] = np.minimum(result[one], np.minimum.reduceat(lengths, begins))
     np.fill_diagonal(result, 0.0)
     return result
@@ -133,26 +137,59 @@ def _cover(rim: Matrix) -> Matrix:
     return cover
 
 
+def _around(boxes: Matrix) -> Matrix:
+    """The box (4,) round ``boxes`` (n, 4)."""
+    return np.concatenate([boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)])
+
+
 @kernel
-def _distances(boxes: Matrix, ends: NDArray[np.int64], one: int, row: NDArray[np.float64]) -> None:
-    """Fill ``row`` with the distances [m] of group ``one`` of the boxes to those that follow it."""
+def _square_apart(one: Matrix, other: Matrix) -> float:
+    """Squared distance [m^2] between two boxes (4,)."""
+    dx = max(one[0] - other[2], other[0] - one[2], 0.0)
+    dy = max(one[1] - other[3], other[1] - one[3], 0.0)
+    return float(dx * dx + dy * dy)
+
+
+@kernel
+def _distances(
+    boxes: Matrix,
+    ends: NDArray[np.int64],
+    around: Matrix,
+    one: int,
+    row: NDArray[np.float64],
+) -> None:
+    """Fill ``row`` with the distances [m] of group ``one`` of the boxes to those that follow it.
+
+    ``around`` (n, 4) are the boxes round each group.
+    """
     begin = 0 if one == 0 else ends[one - 1]
     for other in range(one + 1, len(ends)):
         nearest = np.inf
         for i in range(begin, ends[one]):
+            if _square_apart(boxes[i], around[other]) >= nearest:
+                continue
             for j in range(ends[other - 1], ends[other]):
-                dx = max(boxes[i, 0] - boxes[j, 2], boxes[j, 0] - boxes[i, 2], 0.0)
-                dy = max(boxes[i, 1] - boxes[j, 3], boxes[j, 1] - boxes[i, 3], 0.0)
-                nearest = min(nearest, dx * dx + dy * dy)
+                nearest = min(nearest, _square_apart(boxes[i], boxes[j]))
+            if nearest == 0.0:
+                break
         row[other] = np.sqrt(nearest)
 
 
 @kernel
 def _find_shared(
-    cells: NDArray[np.uint8], outermost: NDArray[np.intp], row: NDArray[np.bool_]
+    cells: NDArray[np.uint8],
+    outermost: NDArray[np.intp],
+    around: Matrix,
+    one: int,
+    row: NDArray[np.bool_],
 ) -> None:
-    """Mark in ``row`` (n,) which of the sets ``cells`` (n, bytes) hold any of the cells (k,)."""
+    """Mark in ``row`` (n,) which of the sets ``cells`` (n, bytes) hold any of the cells (k,).
+
+    These are those of set ``one``; ``around`` (n, 4) are the boxes round each set.
+    """
     for other in range(len(row)):
+        if _square_apart(around[one], around[other]) > 0.0:
+            continue
         for cell in outermost:
             if cells[other, cell >> 3] >> (7 - (cell & 7)) & 1:
                 row[other] = True

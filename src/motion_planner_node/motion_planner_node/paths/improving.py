@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import inf
+
 import numpy as np
 
 from motion_planner_node.paths.edges import Rows, edge_lengths
@@ -49,7 +51,7 @@ def refined(query: Query, path: Rows) -> Rows:
     length = length_of(query, path)
     for number in range(query.budget.refinements):
         query.check_time()
-        if not length > 0.0:
+        if not 0.0 < length < inf:
             break
         random = query.random(2, number)
         along = densified(query.frame, path, length / LEAVES, 0.0)

@@ -110,14 +110,15 @@ def nudge(frame: Frame, path: Rows, step: float, draws: Rows) -> None:
 def shortened(frame: Frame, path: Rows, points: int, reach: float, draws: Rows) -> Rows:
     """A path between the same ends that is not longer than ``path`` (n, 3), whose edges are free.
 
+    Where one of them is not after all, by a hair, the path is left as it is, for the exact check.
     Each round takes about ``points`` attitudes along the path, keeps those that make the shortest
     path, and moves these at random by up to ``reach`` [m]; ``draws`` (rounds, moves, 3) are numbers in [-1, 1].
     """
     length = float(edge_lengths(frame, path).sum())
     for moves in draws:
         spacing = length / points
-        if spacing == 0.0:
-            # A turn on the spot, or no motion at all.
+        if not 0.0 < spacing < inf:
+            # A turn on the spot, no motion at all, or an edge that is not free.
             break
         phase = spacing * 0.5 * (1.0 + float(moves[0, 0]))
         rows = densified(frame, path, spacing, phase)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from motion_planner_node.paths.turning_room import turning_room
 from motion_planner_node.planning.boxes import Boxes, Pyramid
+from motion_planner_node.planning.steps import steps_from
 from motion_planner_node.robots.body import necessary_clearance
 from motion_planner_node.robots.driving import shortest_between
 from motion_planner_node.robots.motion import Attitude
@@ -94,12 +95,25 @@ class Ground:
 
     def cell_of(self, attitude: Attitude) -> int:
         """Number of the one of ``cells`` that ``attitude`` is in; -1 for none."""
-        bounds, side = self.scene.world.bounds, self._free.resolution
-        row = floor((attitude.y - bounds.y_min) / side) + 1
-        column = floor((attitude.x - bounds.x_min) / side) + 1
+        row, column = self._square_of(attitude)
         rows, columns = self._numbers.shape
         inside = 0 <= row < rows and 0 <= column < columns
         return int(self._numbers[row, column]) if inside else -1
+
+    def _square_of(self, attitude: Attitude) -> tuple[int, int]:
+        bounds, side = self.scene.world.bounds, self._free.resolution
+        row = floor((attitude.y - bounds.y_min) / side) + 1
+        return row, floor((attitude.x - bounds.x_min) / side) + 1
+
+    def least_ways(self, start: Attitude) -> NDArray[np.float64]:
+        """Lengths [m] that no way of the robot from ``start`` into each of ``cells`` is below, (n,).
+
+        See `steps_from`; 0 where ``start`` is in none of the cells.
+        """
+        if self.cell_of(start) < 0:
+            return np.zeros(len(self.parts))
+        steps = steps_from(self._numbers, *self._square_of(start))
+        return np.asarray(np.maximum(steps - 1, 0) * self._free.resolution)
 
     def rim_of(self, chosen: NDArray[np.intp]) -> NDArray[np.intp]:
         """Those of the ``chosen`` ones of ``cells`` (n,) that have a cell beside them that is not."""

@@ -93,10 +93,10 @@ class _Reader:
             read_polygon(_flat(item), f'{pointer}/{number}', self._faults)
             for number, item in enumerate(items)
         ]
-        outline, *holes = [polygon for polygon in read if polygon is not None] or [None]
-        if outline is not None and len(holes) == len(items) - 1:
+        whole = [polygon for polygon in read if polygon is not None]
+        if whole and len(whole) == len(items):
             places = [item.place for item in items[1:]]
-            polygon = with_holes(outline, holes, places, self._faults) if holes else outline
+            polygon = with_holes(whole[0], whole[1:], places, self._faults)
             if polygon is not None:
                 yield name, polygon
 

@@ -21,6 +21,8 @@ def with_holes(
 
     Each has to be inside of the outline, outside of the others, and touch none of them.
     """
+    if not holes:
+        return outline
     count = sum(len(polygon.corners) for polygon in (outline, *holes))
     if count > MOST_CORNERS:
         message = f'{outline.name} has {count} corners with its holes: at most {MOST_CORNERS}'
