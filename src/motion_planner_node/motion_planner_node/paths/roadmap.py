@@ -30,7 +30,7 @@ from motion_planner_node.robots.steering import MOST_PIECES
 #: Destinations that ways are looked for to, the nearest by estimate.
 MOST_GOALS = 4
 #: Attitudes of the roadmap that are expanded between two looks at the clock.
-EXPANSIONS = 32
+EXPANSIONS = 8
 
 
 @kernel
@@ -97,6 +97,7 @@ def _roadmap(query: Query, iterations: int) -> tuple[Rows, list[list[int]]]:
         rows = np.array([(s.getX(), s.getY(), s.getYaw()) for s in states]).reshape(-1, 3)
         links: list[list[int]] = [[] for _ in range(count)]
         for i in range(count):
+            query.check_time()
             for j in data.getEdges(i):
                 links[i].append(int(j))
                 links[int(j)].append(i)
