@@ -8,6 +8,7 @@ import sys
 from math import cos, hypot, pi, remainder, sin, tan, tau
 from pathlib import Path
 
+import numpy as np
 import pytest
 import shapely
 import yaml
@@ -17,6 +18,8 @@ from hypothesis import strategies as st
 from motion_planner_node.codes import Code, Status
 from motion_planner_node.parameters import Parameters
 from motion_planner_node.planner import MotionPlanner
+from motion_planner_node.planning.ground import Ground
+from motion_planner_node.planning.stream import DETOUR
 from motion_planner_node.requests import GeometricAnswer, GeometricRequest
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.world import read_world
@@ -134,10 +137,26 @@ def test_whatever_is_found_from_anywhere_is_right(start: Attitude, label: str, s
     if answer.status is Status.FOUND:
         check_found(answer, start, label)
     else:
-        assert answer.code in {Code.START_IN_OBSTACLE, Code.NO_PATH}
+        assert answer.code in {Code.START_IN_OBSTACLE, Code.NO_PATH, Code.UNREACHABLE}
         if answer.code is Code.START_IN_OBSTACLE:
             point = shapely.Point(start.x, start.y)
             assert shapely.distance(point, OBSTACLES) < CAR['radius'] + 1e-3
+
+
+@settings(max_examples=12, deadline=None)
+@given(attitudes, st.sampled_from(LOCATIONS), st.integers(0, 2**64 - 1))
+def test_no_way_is_much_longer_because_others_end_in_dead_ends(
+    start: Attitude, label: str, seed: int
+) -> None:
+    request = photo(label, start, seed=seed)
+    careless = MotionPlanner(PLANNER.world)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Ground, 'can_turn_round', lambda _, states, __: np.ones(len(states), bool))
+        shortest = careless.satisfy(request)
+    answer = MotionPlanner(PLANNER.world).satisfy(request)
+    assert answer.code is shortest.code
+    # Neither search is exact.
+    assert answer.length <= 1.1 * DETOUR * shortest.length
 
 
 @pytest.mark.parametrize(

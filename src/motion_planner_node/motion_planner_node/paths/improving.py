@@ -6,7 +6,7 @@ from math import inf
 
 import numpy as np
 
-from motion_planner_node.paths.edges import Rows, edge_lengths
+from motion_planner_node.paths.edges import Row, Rows, edge_lengths
 from motion_planner_node.paths.query import Query
 from motion_planner_node.paths.shortening import densified, shortened
 from motion_planner_node.paths.shots import best_ending
@@ -18,6 +18,8 @@ LOOK = (9, 40, 1)
 PROBES = 24
 #: Attitudes along a path that are left for a better destination.
 LEAVES = 10
+#: Attitudes that ways to destinations are tried from between two looks at the clock.
+STRETCH = 64
 #: A word of no more than so many times the length of the shortest one is not made shorter.
 STRAIGHT = 1.0 + 1e-9
 #: A refinement that gains no more than this share of the length is the last one.
@@ -40,7 +42,7 @@ def simplified(query: Query, path: Rows, number: int = 0) -> Rows:
         return path
     for draws in query.random(1, number).uniform(-1.0, 1.0, (rounds, 1, moves, 3)):
         query.check_time()
-        path = shortened(query.frame, path, points, 2.0 * query.reach, draws)
+        path = shortened(query.frame, path, points, 2.0 * query.reach, draws, query.check_time)
     return path
 
 
@@ -59,7 +61,7 @@ def refined(query: Query, path: Rows) -> Rows:
         if not len(ends):
             continue
         ways = np.concatenate(([0.0], np.cumsum(edge_lengths(query.frame, along))))
-        shorter, leave, end = best_ending(query.frame, along, ways, ends, length)
+        shorter, leave, end = _best_ending(query, along, ways, ends, length)
         if leave < 0:
             continue
         candidate = simplified(query, np.vstack((along[: leave + 1], ends[end])), 1 + number)
@@ -69,6 +71,20 @@ def refined(query: Query, path: Rows) -> Rows:
         if length > (1.0 - WORTHWHILE) * before:
             break
     return path
+
+
+def _best_ending(
+    query: Query, along: Rows, ways: Row, ends: Rows, length: float
+) -> tuple[float, int, int]:
+    """As `best_ending`, with looks at the clock."""
+    best, leave, end = length, -1, -1
+    for first in range(0, len(along), STRETCH):
+        query.check_time()
+        part = slice(first, first + STRETCH)
+        shorter, at, chosen = best_ending(query.frame, along[part], ways[part], ends, best)
+        if at >= 0:
+            best, leave, end = shorter, first + at, chosen
+    return best, leave, end
 
 
 def _probes(query: Query, along: Rows, random: np.random.Generator, scale: float) -> Rows:

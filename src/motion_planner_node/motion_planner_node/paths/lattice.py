@@ -235,11 +235,17 @@ def path_of(lattice: Lattice, task: Task) -> Rows | None:
     i = int(lattice.counts[_BEST])
     if i < 0:
         return None
-    rows = [task.target]
+    path = path_to(lattice, i, task.target)
+    return path if task.sign > 0.0 else path[::-1].copy()
+
+
+def path_to(lattice: Lattice, i: int, target: Row) -> Rows:
+    """The attitudes (n, 3) from a root to number ``i``, and then ``target``."""
+    rows = [target]
     while i >= 0:
         rows.append(lattice.rows[i])
         i = int(lattice.links[i])
-    return np.array(rows[::-1] if task.sign > 0.0 else rows)
+    return np.array(rows[::-1])
 
 
 def best_root(lattice: Lattice) -> int:
@@ -248,6 +254,11 @@ def best_root(lattice: Lattice) -> int:
     while i >= 0:
         i = int(lattice.links[i])
     return -1 - i
+
+
+def attitudes(lattice: Lattice) -> int:
+    """How many attitudes there are."""
+    return int(lattice.counts[_NODES])
 
 
 def expanded(lattice: Lattice) -> int:

@@ -19,14 +19,17 @@ from motion_planner_node.paths.lattice import (
     Grain,
     Lattice,
     Task,
+    attitudes,
     best_root,
     expanded,
     grow,
     new_lattice,
     path_of,
+    path_to,
     plant,
 )
 from motion_planner_node.paths.query import Query
+from motion_planner_node.paths.shots import best_ending
 from motion_planner_node.robots.registry import MODELS
 from motion_planner_node.robots.robot import Robot
 
@@ -34,6 +37,8 @@ from motion_planner_node.robots.robot import Robot
 CHUNK = 250
 #: Attitudes that are expanded from one end before it is the other's turn; then twice as many.
 FIRST_TURN = 500
+#: Turning radii within which destinations are shot at from where a search from the start has been.
+SHOT = 4.0
 #: Straight moves are tried longer as well, so that open space is crossed in few steps.
 LEAPS = (1.0, 4.0)
 #: What a turn on the spot costs per radian, in steps, as it adds no length.
@@ -116,6 +121,21 @@ class _End:
             expansions -= CHUNK
         return self.path
 
+    def shot(self, goals: Rows, longest: float) -> Rows | None:
+        """A path of less than ``longest`` [m] from what was looked at on to another of the ``goals``."""
+        lattice, query = self.lattice, self._query
+        rows, costs = lattice.rows[: attitudes(lattice)], lattice.costs[: attitudes(lattice)]
+        for goal in goals:
+            away = np.hypot(rows[:, 0] - goal[0], rows[:, 1] - goal[1])
+            near = np.flatnonzero(away < SHOT * query.reach)
+            for first in range(0, len(near), CHUNK):
+                query.check_time()
+                some = near[first : first + CHUNK]
+                ends = best_ending(query.frame, rows[some], costs[some], goal[None, :], longest)
+                if ends[1] >= 0:
+                    return path_to(lattice, int(some[ends[1]]), goal)
+        return None
+
     @property
     def path(self) -> Rows | None:
         """The best path so far."""
@@ -149,6 +169,11 @@ def _search(query: Query, level: Level, longest: float) -> Rows | None:
         backward.lattice.best[0] = edge_lengths(query.frame, path).sum()
         shorter = backward.go_on(turn)
         path = path if shorter is None else shorter
+    query.shut_in = path is None and len(ends) > 1 and ends[-1].state == EXHAUSTED
+    if query.shut_in:
+        # It has looked for one of the destinations, but at all that the start leads to.
+        path = ends[-1].shot(query.goals, longest)
+        query.shut_in = path is None
     if path is None:
         count = sum(expanded(end.lattice) for end in ends)
         query.hopeless = any(end.state == EXHAUSTED for end in ends)

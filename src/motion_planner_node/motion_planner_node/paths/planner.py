@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from math import inf
 
 import numpy as np
 
@@ -27,10 +28,12 @@ def plan_path(
     budget: PathBudget | None = None,
     planner: str = DEFAULT_PLANNER,
     region: Region | None = None,
+    longest: float = inf,
 ) -> PathResult:
     """A short motion of ``robot`` from ``start`` to one of ``goals``, re-validated exactly.
 
-    ``region`` names further destinations near attitudes (n, 3), which may be driven to instead.
+    ``region`` names further destinations near attitudes (n, 3), which may be driven to instead.  A
+    motion of ``longest`` [m] or more is not looked for by the default planner.
     The same arguments give the same result bit for bit.
 
     :raises Stopped: when ``should_stop`` says so
@@ -61,7 +64,15 @@ def plan_path(
             f'({start.x:g}, {start.y:g}): no gap is {2 * robot.body.inner_radius:g} m wide',
         )
     query = Query(
-        scene, robot, start, rows[connected], seed, budget or PathBudget(), should_stop, region
+        scene,
+        robot,
+        start,
+        rows[connected],
+        seed,
+        budget or PathBudget(),
+        should_stop,
+        region,
+        longest,
     )
     raw = chosen.find(query)
     if raw is not None:
@@ -74,7 +85,8 @@ def plan_path(
             which = int(connected[which]) if which >= 0 else -1
             return PathResult(PathOutcome.FOUND, motion, which)
         query.efforts.append('the path that was found is not free by the exact check')
-    return PathResult(PathOutcome.NO_PATH, reason=f'no path found: {"; ".join(query.efforts)}')
+    reason = f'no path found: {"; ".join(query.efforts)}'
+    return PathResult(PathOutcome.NO_PATH, reason=reason, shut_in=query.shut_in)
 
 
 def _blocked(scene: Scene, robot: Robot, what: str, attitude: Attitude) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import inf
+
 from motion_planner_node.paths.edges import Rows
 from motion_planner_node.paths.improving import length_of
 from motion_planner_node.paths.lattice_search import search_lattice
@@ -19,7 +21,7 @@ def default(query: Query) -> Rows | None:
             return shot
         path = search_lattice(query, length)
         return shot if path is None else path
-    path = search_lattice(query)
-    if path is None and not query.hopeless:
+    path = search_lattice(query, query.longest)
+    if path is None and not query.hopeless and query.longest == inf:
         path = rrt_connect(query)
     return path

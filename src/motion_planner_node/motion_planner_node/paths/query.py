@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +42,7 @@ class Query:
         budget: PathBudget,
         should_stop: Callable[[], bool],
         region: Region | None = None,
+        longest: float = inf,
     ) -> None:
         self.scene = scene
         self.robot = robot
@@ -50,10 +52,14 @@ class Query:
         self.budget = budget
         self.region = region
         self.should_stop = should_stop
+        #: No path of this length [m] or more is wanted.
+        self.longest = longest
         #: What was tried in vain, as parts of a sentence.
         self.efforts: list[str] = []
         #: Whether a close look has shown that the start leads nowhere, or nothing to the goals.
         self.hopeless = False
+        #: Whether it was the start.
+        self.shut_in = False
         self._seed = seed & (2**64 - 1)
         spare = float(scene.clearance(np.vstack((self.start, goals))).min()) - sufficient_clearance(
             robot.body

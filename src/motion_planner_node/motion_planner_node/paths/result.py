@@ -23,12 +23,14 @@ class PathResult:
     """The ``motion`` to goal number ``goal_index``; else None, -1 and a ``reason`` with numbers.
 
     ``goal_index`` is -1 too when the motion ends at a destination that the region has given.
+    ``shut_in`` says that a close look at all that the start leads to has found no way to any goal.
     """
 
     outcome: PathOutcome
     motion: Motion | None = None
     goal_index: int = -1
     reason: str = ''
+    shut_in: bool = False
 
 
 @dataclass(frozen=True, slots=True)

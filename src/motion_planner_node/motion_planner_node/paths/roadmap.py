@@ -29,6 +29,8 @@ from motion_planner_node.robots.steering import MOST_PIECES
 
 #: Destinations that ways are looked for to, the nearest by estimate.
 MOST_GOALS = 4
+#: Attitudes of the roadmap that are expanded between two looks at the clock.
+EXPANSIONS = 8
 
 
 @kernel
@@ -41,17 +43,18 @@ def _shortest_ways(
     queue: OpenList,
     before: NDArray[np.int64],
     costs: Row,
+    done: NDArray[np.bool_],
 ) -> int:
-    """Fill ``before`` and ``costs``, shape (n,), from the start, row 0; return the goal that is reached.
+    """Go on with ``before``, ``costs`` and ``done`` (n,) for `EXPANSIONS` rows from the ``queue``.
 
+    Returns the goal that is reached, or -1.
     The last ``goals`` of ``rows`` (n, 3) are the goals; ``neighbours`` from ``first[i]`` to
     ``first[i + 1]`` are those of row i.  An edge is checked when a way may lead along it.
     """
     pieces = np.zeros((MOST_PIECES, 4))
-    done = np.zeros(len(rows), np.bool_)
-    costs[0] = 0.0
-    push(queue, 0.0, 0)
-    while queue.size[0] > 0:
+    for _ in range(EXPANSIONS):
+        if queue.size[0] == 0:
+            break
         _, i = pop(queue)
         if done[i]:
             continue
@@ -94,6 +97,7 @@ def _roadmap(query: Query, iterations: int) -> tuple[Rows, list[list[int]]]:
         rows = np.array([(s.getX(), s.getY(), s.getYaw()) for s in states]).reshape(-1, 3)
         links: list[list[int]] = [[] for _ in range(count)]
         for i in range(count):
+            query.check_time()
             for j in data.getEdges(i):
                 links[i].append(int(j))
                 links[int(j)].append(i)
@@ -113,7 +117,15 @@ def prm_star(query: Query) -> Rows | None:
     before = np.full(len(everything), -1, np.int64)
     costs = np.full(len(everything), inf)
     queue = empty_open_list(len(neighbours) + len(goals) * len(everything) + 1)
-    i = _shortest_ways(query.frame, everything, first, neighbours, len(goals), queue, before, costs)
+    done = np.zeros(len(everything), np.bool_)
+    costs[0] = 0.0
+    push(queue, 0.0, 0)
+    i = -1
+    while i < 0 and queue.size[0] > 0:
+        query.check_time()
+        i = _shortest_ways(
+            query.frame, everything, first, neighbours, len(goals), queue, before, costs, done
+        )
     if i < 0:
         query.efforts.append(f'a roadmap of {len(rows)} attitudes')
         return None

@@ -5,15 +5,19 @@ A path is a list of attitudes (n, 3), each joined to the next by its shortest fr
 
 from __future__ import annotations
 
-from math import inf, pi
+from collections.abc import Callable
+from math import inf, isqrt, pi
 
 import numpy as np
+from numpy.typing import NDArray
 
-from motion_planner_node.paths.edges import Frame, Rows, edge_lengths, free_word
+from motion_planner_node.paths.edges import Frame, Row, Rows, edge_lengths, free_word
 from motion_planner_node.robots.arcs import advance
 from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.robots.steering import MOST_PIECES
 
+#: Pairs of attitudes that are joined between two looks at the clock.
+CHUNK = 1500
 #: What an edge costs [m] beside its length, so that of equal paths the one of fewer edges is taken.
 EDGE_COST = 1e-6
 
@@ -52,34 +56,41 @@ def densified(
 
 
 @kernel
-def best_subsequence(frame: Frame, rows: Rows) -> Rows:
-    """The attitudes of ``rows`` (n, 3) that give the shortest path in their order.
-
-    The first and the last are among them.
-    """
-    count = len(rows)
-    costs, before = np.empty(count), np.empty(count, np.int64)
-    costs[0], before[0] = 0.0, -1
+def _join(
+    frame: Frame, rows: Rows, costs: Row, before: NDArray[np.int64], first: int, last: int
+) -> None:
+    """Fill ``costs`` and ``before`` (n,) from ``first`` to ``last`` - 1; those before are filled."""
     pieces = np.zeros((MOST_PIECES, 4))
-    for j in range(1, count):
+    for j in range(first, last):
         costs[j], before[j] = inf, -1
-        for i in range(j):
+        # The way along the rows comes first: what is no shorter need not be checked.
+        for k in range(j):
+            i = k - 1 if k > 0 else j - 1
             longest = costs[j] - costs[i] - EDGE_COST
             if longest > 0.0:
                 length, word = free_word(frame, rows[i], rows[j], longest, pieces)
                 if word >= 0:
                     costs[j], before[j] = costs[i] + length + EDGE_COST, i
-    size, j = 0, count - 1
+
+
+def best_subsequence(frame: Frame, rows: Rows, check_time: Callable[[], None]) -> Rows:
+    """The attitudes of ``rows`` (n, 3) that give the shortest path in their order.
+
+    The first and the last are among them.  ``check_time`` is called now and then, and may raise.
+    """
+    costs, before = np.zeros(len(rows)), np.full(len(rows), -1, np.int64)
+    first = 1
+    while first < len(rows):
+        check_time()
+        # Up to there the numbers of the attitudes, and so the pairs, come to about a chunk.
+        last = min(max(isqrt(first * first + 2 * CHUNK), first + 1), len(rows))
+        _join(frame, rows, costs, before, first, last)
+        first = last
+    chosen, j = [], len(rows) - 1
     while j >= 0:
-        size += 1
-        j = before[j]
-    chosen = np.empty((size, 3))
-    j = count - 1
-    for k in range(size - 1, -1, -1):
-        for axis in range(3):
-            chosen[k, axis] = rows[j, axis]
-        j = before[j]
-    return chosen
+        chosen.append(j)
+        j = int(before[j])
+    return np.ascontiguousarray(rows[chosen[::-1]])
 
 
 @kernel
@@ -107,12 +118,20 @@ def nudge(frame: Frame, path: Rows, step: float, draws: Rows) -> None:
             lengths[i - 1], lengths[i] = first, second
 
 
-def shortened(frame: Frame, path: Rows, points: int, reach: float, draws: Rows) -> Rows:
+def shortened(
+    frame: Frame,
+    path: Rows,
+    points: int,
+    reach: float,
+    draws: Rows,
+    check_time: Callable[[], None],
+) -> Rows:
     """A path between the same ends that is not longer than ``path`` (n, 3), whose edges are free.
 
     Where one of them is not after all, by a hair, the path is left as it is, for the exact check.
     Each round takes about ``points`` attitudes along the path, keeps those that make the shortest
-    path, and moves these at random by up to ``reach`` [m]; ``draws`` (rounds, moves, 3) are numbers in [-1, 1].
+    path, and moves these at random by up to ``reach`` [m]; ``draws`` (rounds, moves, 3) are
+    numbers in [-1, 1].  ``check_time`` is called now and then, and may raise.
     """
     length = float(edge_lengths(frame, path).sum())
     for moves in draws:
@@ -122,7 +141,7 @@ def shortened(frame: Frame, path: Rows, points: int, reach: float, draws: Rows) 
             break
         phase = spacing * 0.5 * (1.0 + float(moves[0, 0]))
         rows = densified(frame, path, spacing, phase)
-        candidate = best_subsequence(frame, rows)
+        candidate = best_subsequence(frame, rows, check_time)
         nudge(frame, candidate, reach, moves)
         shorter = float(edge_lengths(frame, candidate).sum())
         if shorter < length:

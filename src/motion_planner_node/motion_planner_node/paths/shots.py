@@ -35,7 +35,7 @@ def best_ending(
 def direct(query: Query) -> Rows | None:
     """The shortest free word from the start to any of the goals: attitudes (2, 3)."""
     start = query.start[None, :]
-    _, leave, end = best_ending(query.frame, start, np.zeros(1), query.goals, inf)
+    _, leave, end = best_ending(query.frame, start, np.zeros(1), query.goals, query.longest)
     if leave < 0:
         query.efforts.append(
             f'none of the shortest motions to {len(query.goals)} destinations is free'

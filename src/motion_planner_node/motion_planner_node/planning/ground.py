@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import floor
 
@@ -20,6 +21,8 @@ from motion_planner_node.world.scene import Scene
 
 #: Boxes on a side of the map where a grid over all of it is needed, free or not.
 WHOLE_MAP_BOXES = 96
+#: Attitudes from which ways on are looked for between two looks at the clock.
+LOOKS = 16
 #: Places on the rim of an area whose nearest obstacles are named.
 RIM_PLACES = 256
 
@@ -81,9 +84,19 @@ class Ground:
             return f'{here} is {-clearance:.4g} m inside {name}'
         return f'{here} is {clearance:.4g} m from {name}, {self.robot.lack}'
 
-    def can_turn_round(self, states: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """At which free attitudes (n, 3) there is room to turn, shape (n,); see `turning_room`."""
-        return turning_room(self.scene, self.robot, states)
+    def can_turn_round(
+        self, states: NDArray[np.float64], check_time: Callable[[], None]
+    ) -> NDArray[np.bool_]:
+        """At which free attitudes (n, 3) there is room to turn, shape (n,); see `turning_room`.
+
+        ``check_time`` is called now and then, and may raise.
+        """
+        result = np.ones(len(states), np.bool_)
+        for first in range(0, len(states), LOOKS):
+            check_time()
+            part = slice(first, first + LOOKS)
+            result[part] = turning_room(self.scene, self.robot, states[part])
+        return result
 
     def part_of(self, attitude: Attitude) -> int:
         """Number of the connected part of the free space that ``attitude`` is in; -1 for none."""

@@ -110,9 +110,9 @@ def _no_free_place(problem: Problem, ground: Ground) -> Impossible:
     return Impossible(
         Code.NO_FREE_DESTINATION,
         scope_of(problem, Scope.ANY_START),
-        f'every place from which {_wanted(problem)} holds is blocked by {_listed(names)} '
+        f'every place from which {wanted(problem)} holds is blocked by {listed(names)} '
         f'for {problem.agent} with {ground.robot.extent}',
-        f'move {_listed(names)} or relax the constraints',
+        f'move {listed(names)} or relax the constraints',
     )
 
 
@@ -120,24 +120,24 @@ def _enclosed(problem: Problem, ground: Ground, here: int, there: int) -> Imposs
     own, other = ground.area(here), ground.area(there)
     width = 2.0 * (ground.robot.radius + ground.robot.safety_margin)
     target = ' and '.join(problem.program.objects) or 'the destination'
-    wanted = _wanted(problem)
+    sought = wanted(problem)
     if own.size < other.size:
         walls = own
         message = (
             f'{problem.agent} is walled in: it cannot leave {_described(own)}, '
-            f'and no place in there lets {wanted} hold'
+            f'and no place in there lets {sought} hold'
         )
     else:
         walls = other
         message = (
-            f'{target} is walled in: every place from which {wanted} holds '
+            f'{target} is walled in: every place from which {sought} holds '
             f'lies in {_described(other)}'
         )
     return Impossible(
         Code.UNREACHABLE,
         scope_of(problem, Scope.CONNECTED_STARTS),
         message,
-        f'open a passage wider than {width:g} m through {_listed(walls.obstacles)}',
+        f'open a passage wider than {width:g} m through {listed(walls.obstacles)}',
     )
 
 
@@ -147,14 +147,16 @@ def scope_of(problem: Problem, widest: Scope) -> Scope:
 
 
 def _described(area: Area) -> str:
-    return f'an enclosed area of {area.size:.0f} m2 bounded by {_listed(area.obstacles)}'
+    return f'an enclosed area of {area.size:.0f} m2 bounded by {listed(area.obstacles)}'
 
 
-def _wanted(problem: Problem) -> str:
+def wanted(problem: Problem) -> str:
+    """The constraints as a part of a sentence."""
     return ' and '.join(problem.program.constraints)
 
 
-def _listed(names: tuple[str, ...] | list[str]) -> str:
+def listed(names: tuple[str, ...] | list[str]) -> str:
+    """The first names, and how many more there are."""
     shown = list(names[:4])
     if len(names) > len(shown):
         shown.append(f'{len(names) - len(shown)} more')

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from math import hypot, pi, remainder, tau
+from math import hypot, inf, pi, remainder, tau
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ from motion_planner_node.codes import AttemptResult
 from motion_planner_node.errors import Stopped
 from motion_planner_node.parameters import Parameters
 from motion_planner_node.paths import DEFAULT_PLANNER, PathBudget, Region, plan_path
+from motion_planner_node.planning.blocked_ahead import blocked_ahead
 from motion_planner_node.planning.ground import Ground
 from motion_planner_node.planning.problem import Problem
 from motion_planner_node.planning.proofs import (
@@ -42,6 +43,9 @@ class Found:
     tried: Tried
 
 
+#: A dead end is taken when others are farther away by this factor.
+DETOUR = 1.3
+
 #: A motion, and where it ends.
 Way = tuple[Motion, Attitude]
 
@@ -50,7 +54,7 @@ Way = tuple[Motion, Attitude]
 class Candidate:
     """A destination, ``length`` [m] away by estimate.
 
-    One that may be a dead end comes after all others: the next action has to start there.
+    The next action has to start there: one that may be a dead end is taken where others are far.
     """
 
     number: int
@@ -102,6 +106,8 @@ class Stream:
         self._spread = 0.0
         self._seen: list[Attitude] = []
         self._failures = 0
+        #: Whether a close look at all that the start leads to has found no destination.
+        self._is_shut_in = False
         self.proof: Impossible | None = None
         self._more = self._preferred_first()
         self._broken = False
@@ -124,6 +130,8 @@ class Stream:
                 if found is None:
                     break
                 self._found.append(found)
+            if not self._found and self.proof is None:
+                self.proof = blocked_ahead(self._problem, self._ground)
         self._broken = False
         return self._found[alternative] if alternative < len(self._found) else None
 
@@ -168,21 +176,30 @@ class Stream:
 
     def _answers(self) -> Iterator[Found]:
         """Motions to candidates that are new, as much as is asked for now."""
-        for dead_end in (False, True):
-            while not self._has_failed:
-                new = [
-                    candidate
-                    for candidate in self._candidates
-                    if candidate.dead_end is dead_end and self._is_new(candidate.attitude)
-                ]
-                way = self._plan(new, self._region(dead_end)) if new else None
-                if way is None:
-                    break
-                yield self._answer(way)
+        while not self._has_failed:
+            way = self._way_on()
+            if way is None:
+                break
+            yield self._answer(way)
+
+    def _way_on(self) -> Way | None:
+        """A motion to a new candidate from where there is a way on, or one that is far shorter.
+
+        A dead end is taken when the motion into it is shorter than those to all others by `DETOUR`.
+        """
+        new = [candidate for candidate in self._candidates if self._is_new(candidate.attitude)]
+        open_ends = [candidate for candidate in new if not candidate.dead_end]
+        way = self._plan(open_ends, self._region(dead_end=False)) if open_ends else None
+        longest = inf if way is None else way[0].length
+        dead_ends = [item for item in new if item.dead_end and item.length * DETOUR < longest]
+        if not dead_ends or self._failures >= self._parameters.failures_per_answer:
+            return way
+        shorter = self._plan(dead_ends, self._region(dead_end=True), longest)
+        return shorter if shorter and shorter[0].length * DETOUR < longest else way
 
     @property
     def _has_failed(self) -> bool:
-        return self._failures >= self._parameters.failures_per_answer
+        return self._is_shut_in or self._failures >= self._parameters.failures_per_answer
 
     def _prove(self) -> Impossible | None:
         hopeful = hopeful_cells(self._problem, self._ground)
@@ -191,7 +208,7 @@ class Stream:
 
     def _answer(self, way: Way) -> Found:
         tried, self.tried = self.tried, Tried(self._problem.agent)
-        self._failures = 0
+        self._failures, self._is_shut_in = 0, False
         return Found(*way, tried)
 
     def _add_candidates(self, round_number: int) -> None:
@@ -210,7 +227,7 @@ class Stream:
         )
         free = self._ground.is_free(states)
         near = self._ground.parts_of(states) == self._here
-        roomy = self._ground.can_turn_round(states)
+        roomy = self._ground.can_turn_round(states, self._check_time)
         estimates = self._ground.estimates(self._problem.start, states)
         if len(states):
             self._spread = max(self._spread, float(np.ptp(states[:, :2], axis=0).max()))
@@ -233,10 +250,13 @@ class Stream:
                 self._candidates.append(Candidate(len(self._seen), attitude, length, dead_end))
         self._candidates.sort(key=lambda candidate: (candidate.length, candidate.number))
 
-    def _plan(self, candidates: list[Candidate], region: Region | None) -> Way | None:
+    def _plan(
+        self, candidates: list[Candidate], region: Region | None, longest: float = inf
+    ) -> Way | None:
         """Find a motion to one of ``candidates``, or into ``region``, and verify it where it ends.
 
-        Those that turn out not to be reached, or not to do, are candidates no longer.
+        Those that turn out not to be reached, or not to do, are candidates no longer.  Where only
+        motions of less than ``longest`` [m] are looked for, nothing is known of the others.
         """
         left = list(candidates)
         while left:
@@ -254,9 +274,12 @@ class Stream:
                 self._budget,
                 self._planner,
                 region,
+                longest,
             )
             if result.motion is None:
-                self._drop(left, AttemptResult.NO_PATH, result.reason)
+                if longest == inf:
+                    self._drop(left, AttemptResult.NO_PATH, result.reason)
+                    self._is_shut_in |= result.shut_in
                 break
             end = end_of(result.motion, self._ground.robot)
             missed = self._problem.program.unmet(end)
@@ -275,7 +298,7 @@ class Stream:
             self.tried.add(candidate.attitude, result, reason)
             self._candidates.remove(candidate)
 
-    def _region(self, dead_end: bool) -> Region:
+    def _region(self, *, dead_end: bool) -> Region:
         """Further destinations near attitudes: new ones, and no dead end unless that is wanted."""
 
         def region(rows: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -287,7 +310,7 @@ class Stream:
                 return states
             good = ground.parts_of(states) == self._here
             if not dead_end:
-                good &= ground.can_turn_round(states)
+                good &= ground.can_turn_round(states, self._check_time)
             if self._found:
                 good &= [self._is_new(Attitude(*state)) for state in states.tolist()]
             return np.ascontiguousarray(states[good])
