@@ -6,18 +6,14 @@ constrain each other, and a rover that samples, calibrates cameras and delivers.
 
 from __future__ import annotations
 
-import argparse
-import json
-import os
 import shutil
 import statistics
-import subprocess
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
-from experiments.mission.run import ROOT, nodes_up
 from experiments.paper.part import Claim, Part, write_csv
+from experiments.planning import Nodes, nodes_up
 from experiments.results import Target
 from tests.support.checker import Judge
 
@@ -27,7 +23,7 @@ MISSIONS = {
     'guards': 'two robots, a car and an omnidirectional one, that keep each other in view',
     'samples': 'cameras to calibrate, a store of two compartments, a car that reverses',
 }
-FOLDER = ROOT / 'src' / 'interface_node' / 'missions'
+FOLDER = Path(__file__).resolve().parents[2] / 'src' / 'interface_node' / 'missions'
 
 
 @dataclass(frozen=True)
@@ -60,22 +56,12 @@ class Planned:
     faults: tuple[str, ...] = ()
 
 
-def plan(namespace: str, mission: str, seed: int, folder: Path) -> Planned:
-    """Plan a mission with nodes that run, leave its files in ``folder`` and have them judged."""
-    shutil.rmtree(folder, ignore_errors=True)
-    command = ['geohtn', 'plan', str(FOLDER / mission), '--namespace', namespace, '--wait', '60']
-    done = subprocess.run(
-        [*command, '--seed', str(seed), '--output', str(folder)],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    written = folder / 'plan.json'
-    if not written.exists():
-        raise SystemExit(f'{mission}, seed {seed}: exit code {done.returncode}\n{done.stderr}')
-    document = json.loads(written.read_text(encoding='utf-8'))
+def plan(nodes: Nodes, mission: str, seed: int) -> Planned:
+    """Plan a mission with nodes that run, leave its files in their folder and have them judged."""
+    shutil.rmtree(nodes.folder, ignore_errors=True)
+    document = nodes.plan(FOLDER / mission, seed)
     counts = document['statistics']
-    judge = Judge(written, FOLDER / mission / 'world.yaml')
+    judge = Judge(nodes.folder / 'plan.json', FOLDER / mission / 'world.yaml')
     return Planned(
         mission=mission,
         seed=seed,
@@ -92,14 +78,13 @@ def plan(namespace: str, mission: str, seed: int, folder: Path) -> Planned:
 
 def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
     """Plan every mission ``sizes.seeds`` times from ``seed`` on; files go into ``folder``."""
-    namespace = f'experiment_missions_{os.getpid()}'
     plans: list[Planned] = []
     pictures: list[Path] = []
-    with nodes_up(namespace):
+    with nodes_up(folder) as nodes:
         for mission in MISSIONS:
             for number in range(seed, seed + sizes.seeds):
                 output = folder / 'missions' / f'{mission}-{number}'
-                plans.append(plan(namespace, mission, number, output))
+                plans.append(plan(replace(nodes, folder=output), mission, number))
             picture = folder / f'mission_{mission}.png'
             shutil.copyfile(folder / 'missions' / f'{mission}-{seed}' / 'mission.png', picture)
             pictures.append(picture)
@@ -181,20 +166,3 @@ def _spread(values: Sequence[float], digits: int) -> str:
     if f'{low:.{digits}f}' == f'{high:.{digits}f}':
         return shown
     return f'{shown} ({low:.{digits}f} to {high:.{digits}f})'
-
-
-def main() -> None:
-    """Measure this part alone and print its section."""
-    parser = argparse.ArgumentParser(description='Plan the missions of part 6.')
-    parser.add_argument('--output', type=Path, default=ROOT / 'out' / 'experiments' / 'missions')
-    parser.add_argument('--seeds', type=int, default=FULL.seeds, help='plans of each mission')
-    parser.add_argument('--seed', type=int, default=1, help='seed of the first')
-    arguments = parser.parse_args()
-    part = measure(Sizes(arguments.seeds), arguments.seed, arguments.output)
-    print(part.text)
-    for target in part.targets:
-        print(target)
-
-
-if __name__ == '__main__':
-    main()

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
+from math import hypot, remainder, tau
 
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
 from experiments.paper.methods.graphs import Graph
 from motion_planner_node.planner import MotionPlanner
-from motion_planner_node.requests import AdviceRequest, GeometricRequest
-from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.requests import AdviceRequest, GeometricAnswer, GeometricRequest
+from motion_planner_node.robots.motion import Attitude, Motion
 from task_planner_node.oracle import (
     Advice,
+    AdviceQuery,
     Answer,
     CandidateAdvice,
+    Opportunity,
     Query,
     Scope,
     Status,
@@ -26,6 +28,8 @@ from task_planner_node.oracle import (
 
 _OBJECT = re.compile(r'\(object (\S+?)\)')
 State = tuple[tuple[str, Attitude], ...]
+#: [m] and [rad] by which the end of a motion may miss the attitude that was preferred.
+SAME = 1e-6
 
 
 class ShortestPaths:
@@ -58,7 +62,7 @@ class ShortestPaths:
         length = float(lengths[self._number[goal]])
         return Answer(Status.FOUND, end=goal, length=length, objects=(goal,), payload=way[::-1])
 
-    def advise(self, _start: Token, _preconditions: Sequence[str]) -> Advice:
+    def advise(self, _query: AdviceQuery) -> Advice:
         """Oracle.advise: none."""
         return Advice((), ())
 
@@ -85,8 +89,10 @@ class Driving:
             behaviour=query.behaviour,
             alternative=query.alternative,
             seed=self.seed,
+            preferred_end=dict(_state(query.preferred)) if query.preferred is not None else {},
         )
         answer = self.planner.satisfy(request)
+        end = answer.end.get(answer.agent)
         return Answer(
             Status(answer.status),
             int(answer.code),
@@ -97,11 +103,24 @@ class Driving:
             answer.length,
             answer.objects,
             payload=answer,
+            attitude=((answer.agent, end),) if end else None,
+            as_preferred=_is_at(end, request.preferred_end.get(answer.agent)),
         )
 
-    def advise(self, start: Token, preconditions: Sequence[str]) -> Advice:
-        """Oracle.advise: the nearest first."""
-        request = AdviceRequest(tuple(preconditions), dict(_state(start)), seed=self.seed)
+    def advise(self, query: AdviceQuery) -> Advice:
+        """Oracle.advise."""
+        pairs = query.precedences
+        request = AdviceRequest(
+            query.preconditions,
+            dict(_state(query.start)),
+            seed=self.seed,
+            purpose=int(query.purpose),
+            before=tuple(before for before, _ in pairs),
+            after=tuple(after for _, after in pairs),
+            ends=tuple(_state(end)[0] if end is not None else None for end in query.ends),
+            effort=query.effort,
+            motions=tuple(_motion(answer) for answer in query.motions),
+        )
         advice = self.planner.advise(request)
         candidates = tuple(
             CandidateAdvice(
@@ -114,10 +133,36 @@ class Driving:
             )
             for candidate in advice.candidates
         )
-        return Advice(candidates, advice.order)
+        return Advice(
+            candidates,
+            advice.order,
+            ends=tuple((end,) if end else None for end in advice.ends),
+            opportunities=tuple(
+                Opportunity(found.candidate, found.motion, found.distance, (found.end,))
+                for found in advice.opportunities
+            ),
+        )
 
 
 def _state(token: Token) -> State:
     if not isinstance(token, tuple):
         raise TypeError(f'not a geometric state: {token!r}')
     return token
+
+
+def _motion(answer: Answer) -> Motion:
+    """The motion of an answer that was FOUND."""
+    found = answer.payload
+    if not isinstance(found, GeometricAnswer) or found.motion is None:
+        raise TypeError(f'not an answer with a motion: {found!r}')
+    return found.motion
+
+
+def _is_at(end: Attitude | None, wanted: Attitude | None) -> bool:
+    """Whether an end is the wanted one, but for rounding."""
+    return (
+        end is not None
+        and wanted is not None
+        and hypot(end.x - wanted.x, end.y - wanted.y) < SAME
+        and abs(remainder(end.heading - wanted.heading, tau)) < SAME
+    )

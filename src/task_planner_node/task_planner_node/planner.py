@@ -101,7 +101,7 @@ class Planner:
         except GeometryFailed as error:
             outcome, explanation = Outcome.FAILED, str(error)
         self._statistics.planning_time = time.monotonic() - self._began
-        self._statistics.work = self._state.work if self._state else 0
+        self._statistics.work = self._anytime.state.work if self._anytime else 0
         self._say('writing', force=True)
         kept = self._plans.kept if self._plans else ()
         plans = tuple(kept) if outcome == Outcome.SOLVED else ()

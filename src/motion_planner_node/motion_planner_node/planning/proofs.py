@@ -83,7 +83,7 @@ def lasting(problem: Problem, proof: Impossible, empty: Ground, crowded: Ground)
     without = walled_off(problem, empty, hopeful) or no_attitude(problem, empty)
     if without:
         return without
-    robots = _listed(sorted(problem.others))
+    robots = listed(sorted(problem.others))
     return replace(
         proof,
         scope=Scope.THIS_START,

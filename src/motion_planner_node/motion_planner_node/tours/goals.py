@@ -73,7 +73,7 @@ def attitudes(
         ranked = np.column_stack([_nearest(states, other) for other in others]).ravel()
         chosen += [index for index in dict.fromkeys(ranked.tolist()) if index not in chosen]
         states = states[chosen[:most]]
-        roomy = ground.can_turn_round(states)
+        roomy = ground.can_turn_round(states, lambda: go_on(should_stop))
         result.append(states[roomy] if roomy.any() else states)
     return result
 

@@ -38,6 +38,10 @@ def refined(
 
     :raises Stopped: when ``should_stop`` said so
     """
+
+    def check_time() -> None:
+        go_on(should_stop)
+
     part = ground.parts_of(rows[:1])[0]
     ways = [legs.leg(a, b)[1].copy() for a, b in itertools.pairwise(rows)]
     reach = max(ground.robot.turning_radius, ground.robot.radius)
@@ -55,7 +59,7 @@ def refined(
             best = int(np.argmin(lengths))
             if not lengths[best] < lengths[0] - GAIN:
                 continue
-            if not ground.can_turn_round(states[best : best + 1])[0]:
+            if not ground.can_turn_round(states[best : best + 1], check_time)[0]:
                 continue
             way[-1] = states[best]
             if onward is not None:
@@ -63,5 +67,5 @@ def refined(
         for index, way in enumerate(ways):
             if len(way) > 2:
                 nudge(legs.frame, way, spread, rng.uniform(-1.0, 1.0, (MOVES, 3)))
-                ways[index] = best_subsequence(legs.frame, way)
+                ways[index] = best_subsequence(legs.frame, way, check_time)
     return np.vstack((rows[:1], *(way[-1:] for way in ways)))

@@ -135,6 +135,9 @@ class TourSearch:
             best = min(best, tour, key=lambda item: item.length)
         return best
 
+    def _check_time(self) -> None:
+        go_on(self._should_stop)
+
     def _known(self) -> Tour:
         """The tour over the known ends in the order given, if that may be; else an endless one."""
         rows = np.vstack((self._start, *(goal.states[:1] for goal in self._goals)))
@@ -171,7 +174,7 @@ class TourSearch:
                 )
             )
             states = fit(goal, self._ground, self._part, begin)[:4]
-            states = states[self._ground.can_turn_round(states)] if len(states) else states
+            states = states[self._ground.can_turn_round(states, self._check_time)]
             for state in states:
                 samples.add(np.array([index]), state[None, :], self._should_stop)
 
