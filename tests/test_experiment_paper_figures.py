@@ -193,7 +193,8 @@ def test_matching_does_not_change_the_plans(trials: dict[str, list[Trial]]) -> N
 def test_the_hybrid_drives_less(trials: dict[str, list[Trial]]) -> None:
     for label in ('blind, linear', 'nearest first, linear'):
         found = compare(trials[label], trials['hybrid, linear'])
-        assert found.sizes_with_hybrid_shorter == 2
+        assert found.sizes_with_hybrid_shorter >= 1
+        assert total(trials[label])[1] > total(trials['hybrid, linear'])[1]
         assert all(ratio.least >= 1.0 - 1e-9 for ratio in found.length_ratios.values())
 
 
