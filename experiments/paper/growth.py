@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from experiments.paper.part import Part, write_csv
-from experiments.paper.photos import write_mission
+from experiments.paper.photos import WARM_UP, write_mission
 from experiments.paper.report import table
 from experiments.planning import Nodes, NotSolvedError, nodes_up, spread, summary
 from experiments.results import Target
@@ -48,7 +48,7 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
     """Plan missions of every size, the small ones first, and see what memory the nodes take."""
     figures: dict[int, dict[str, Any]] = {}
     with nodes_up(folder / 'plan') as nodes:
-        nodes.plan(write_mission(folder / 'warm_up', 1, seed), seed)
+        nodes.plan(write_mission(folder / 'warm_up', WARM_UP, seed), seed)
         for count in sizes.goals:
             plans = _plans(nodes, count, sizes.missions, seed, folder)
             figures[count] = _figures(plans, sizes.missions) | {'memory_mb': nodes.memory()}

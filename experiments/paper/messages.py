@@ -9,7 +9,7 @@ from pathlib import Path
 
 from experiments.paper.beforehand import plan_beforehand
 from experiments.paper.part import Claim, Part, write_csv
-from experiments.paper.photos import write_mission
+from experiments.paper.photos import WARM_UP, write_mission
 from experiments.paper.report import table
 from experiments.planning import COUNTS, nodes_up
 
@@ -40,7 +40,7 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
     """Plan the same random missions in every way, and count."""
     figures: dict[int, dict[str, dict[str, float]]] = {}
     with nodes_up(folder / 'plan') as nodes:
-        nodes.plan(write_mission(folder / 'warm_up', 1, seed), seed)
+        nodes.plan(write_mission(folder / 'warm_up', WARM_UP, seed), seed)
         for count in sizes.goals:
             found: dict[str, list[Mapping[str, float]]] = {}
             for number in range(sizes.sets):

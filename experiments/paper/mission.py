@@ -15,7 +15,7 @@ from experiments.motion.worlds import ROVER
 from experiments.paper.best_known import kept
 from experiments.paper.lower_bound import lower_bound, outlines
 from experiments.paper.part import Claim, Part, write_csv
-from experiments.paper.photos import problem, write_mission
+from experiments.paper.photos import WARM_UP, problem, write_mission
 from experiments.paper.report import table
 from experiments.planning import Nodes, nodes_up, spread, summary
 from experiments.results import Target
@@ -60,7 +60,7 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
         'nearest first': ('--guidance', 'nearest_first'),
         OPTIMISED: ('--optimise', '--time-budget', str(sizes.budget)),
     }
-    warm_up = write_mission(folder / 'warm_up', 1, seed)
+    warm_up = write_mission(folder / 'warm_up', WARM_UP, seed)
     methods: dict[str, dict[str, dict[str, float]]] = {}
     faults: list[str] = []
     pictures: list[Path] = []

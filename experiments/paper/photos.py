@@ -15,6 +15,8 @@ import yaml
 from experiments.motion.worlds import ROVER
 from experiments.paper.lower_bound import outlines
 
+#: Photos of a mission that only warms the nodes up: enough for a tour.
+WARM_UP = 3
 #: Goals in a world of the paper's size.
 PER_TILE = 8
 #: An objective is laid where this share of a ring round it is free for a robot with some room.
