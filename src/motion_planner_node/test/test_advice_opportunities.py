@@ -31,8 +31,8 @@ WORLD = World(
 PLANNER = MotionPlanner(WORLD)
 STATE = {'r': Attitude(100.0, 150.0, 0.0), 's': Attitude(300.0, 300.0, 0.0)}
 NEAR = '((agent r)(object o)(distance(r, o) <= 60))'
-BESIDE = '((agent r)(object o)(distance(r, o) <= 100)(rel_angle(r, o) = pi/2))'
-PHOTO = BESIDE.replace('pi/2', 'cos-and-sin(-pi/2)')
+BESIDE = '((agent r)(object o)(distance(r, o) <= 100)(rel_angle(r, o) = cos-and-sin(pi/2)))'
+PHOTO = BESIDE.replace('pi/2', '-pi/2')
 #: Along the line 50 m below the object, which is abreast on the left after 100 m.
 STRAIGHT = Motion('r', Attitude(100.0, 150.0, 0.0), (Segment(0.0, 200.0),))
 
@@ -90,7 +90,7 @@ def test_places_are_on_the_motion_and_no_dense_sample_is_before_them(
 ) -> None:
     motion = Motion('r', start, tuple(segments))
     within = f'((agent r)(object o)(distance(r, o) <= {radius!r}))'
-    looking = f'((agent r)(object o)(distance(r, o) <= {radius!r})(rel_angle(r, o) = {angle!r}))'
+    looking = f'((agent r)(object o)(distance(r, o) <= {radius!r})(rel_angle(r, o) = cos-and-sin({angle!r})))'
     found = {item.candidate: item for item in asked((motion,), within, looking)}
     rows = sample(motion, CAR, 0.05)
     apart = np.hypot(rows[:, 0] - 200.0, rows[:, 1] - 200.0)

@@ -12,7 +12,7 @@ from motion_planner_node.codes import Code, Purpose
 from motion_planner_node.errors import MotionPlannerError, Stopped
 from motion_planner_node.planner import MotionPlanner
 from motion_planner_node.requests import AdviceAnswer, AdviceRequest, GeometricRequest
-from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.motion import Attitude, GeometricState
 from motion_planner_node.robots.robot import Robot
 from motion_planner_node.world.model import Bounds, Circle, World, WorldObject
 
@@ -34,7 +34,7 @@ STATE = {'r': Attitude(60.0, 300.0, 0.0), 's': Attitude(560.0, 300.0, pi)}
 def photo(place: str, agent: str = 'r') -> str:
     return (
         f'((agent {agent})(object {place})(distance({agent}, {place}) >= 30)'
-        f'(distance({agent}, {place}) <= 60)(rel_angle({agent}, {place}) = pi/2))'
+        f'(distance({agent}, {place}) <= 60)(rel_angle({agent}, {place}) = cos-and-sin(pi/2)))'
     )
 
 
@@ -64,7 +64,8 @@ def test_every_end_will_do_and_the_tour_can_be_driven_as_promised() -> None:
     answer = tour()
     check_ends(answer)
     assert sorted(answer.order) == [0, 1, 2, 3, 4]
-    state, driven = STATE, 0.0
+    state: GeometricState = STATE
+    driven = 0.0
     for index in answer.order:
         agent, end = answer.ends[index] or ('', Attitude(nan, nan, nan))
         leg = PLANNER.satisfy(GeometricRequest(TEXTS[index], state, preferred_end={agent: end}))

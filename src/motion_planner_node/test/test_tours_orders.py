@@ -41,7 +41,7 @@ def respects(groups: Groups, order: np.ndarray) -> bool:
 
 def length_by_trying(groups: Groups, order: tuple[int, ...]) -> float:
     """The shortest way through an order, by trying all attitudes."""
-    choices = [range(groups.first[g], groups.first[g] + groups.count[g]) for g in order]
+    choices = [range(groups.first[g], groups.first[g] + groups.sizes[g]) for g in order]
     return min(
         sum(float(groups.costs[a, b]) for a, b in pairwise(way)) for way in product(*choices)
     )

@@ -77,7 +77,7 @@ def _states_before(
     world: World, motions: tuple[Motion, ...], state: GeometricState
 ) -> list[GeometricState]:
     """Where everybody stands at the beginning of each motion."""
-    states = []
+    states: list[GeometricState] = []
     for motion in motions:
         state = {**state, motion.agent: motion.start}
         states.append(state)

@@ -110,7 +110,7 @@ def _crosses(function: Row, periodic: bool) -> NDArray[np.bool_]:
     """Between which neighbours (n - 1,) the sign changes; a jump by half a turn is no change."""
     one, other = function[:-1], function[1:]
     crosses = ((one <= 0.0) != (other <= 0.0)) & np.isfinite(one) & np.isfinite(other)
-    return crosses & (np.abs(one - other) < np.pi) if periodic else crosses
+    return np.asarray(crosses & (np.abs(one - other) < np.pi) if periodic else crosses)
 
 
 def _roots(
