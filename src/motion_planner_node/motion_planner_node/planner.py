@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from motion_planner_node.advice.advisor import Advisor
+from motion_planner_node.codes import Purpose
 from motion_planner_node.errors import Diagnostic, MotionPlannerError, Stopped
 from motion_planner_node.language import Preconditions, check, parse
 from motion_planner_node.parameters import PAPER_MODE, Parameters
@@ -26,10 +27,11 @@ from motion_planner_node.requests import (
     GeometricAnswer,
     GeometricRequest,
 )
-from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.motion import Attitude, Motion
 from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import Program
 from motion_planner_node.stopping import ShouldStop, never
+from motion_planner_node.tours.exact import MOST_EXACT
 from motion_planner_node.world import Scene
 from motion_planner_node.world.model import (
     Bounds,
@@ -170,5 +172,12 @@ def warm_up() -> None:
     text = '((agent robot)(object goal)(distance(robot, goal) <= 5))'
     planner.satisfy(GeometricRequest(text, {agent: here}))
     planner.advise(AdviceRequest((text,), {agent: here}, pairwise=True))
+    for count in (1, MOST_EXACT + 1):
+        tour = AdviceRequest((text,) * count, {agent: here}, purpose=Purpose.SHORTEST_TOUR)
+        planner.advise(tour)
+    met = AdviceRequest(
+        (text,), {agent: here}, purpose=Purpose.OPPORTUNITIES, motions=(Motion(agent, here),)
+    )
+    planner.advise(met)
     seen = f'{text[:-1]}(visible(robot, goal))(clearance(robot) >= 2))'
     planner.satisfy(GeometricRequest(seen, {agent: here}))

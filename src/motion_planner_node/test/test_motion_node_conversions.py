@@ -16,7 +16,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from motion_planner_node import conversions, motion_conversions
-from motion_planner_node.codes import AttemptResult, Code, Scope
+from motion_planner_node.codes import AttemptResult, Code, Purpose, Scope
 from motion_planner_node.errors import Diagnostic, MotionPlannerError
 from motion_planner_node.node import MotionPlannerNode
 from motion_planner_node.planner import MotionPlanner
@@ -25,6 +25,7 @@ from motion_planner_node.requests import (
     Attempt,
     CandidateAdvice,
     GeometricAnswer,
+    Opportunity,
     Residual,
 )
 from motion_planner_node.robots.motion import Attitude, Motion, Segment
@@ -117,6 +118,41 @@ def test_advice_becomes_a_message() -> None:
     assert [item.estimate for item in sent.candidates] == [2.0, inf]
     assert list(sent.order) == [0, 1]
     assert sent.request_id == 'id'
+
+
+def test_what_a_tour_needs_arrives_and_its_answer_is_told() -> None:
+    end = msg.AgentState(agent='r', x=1.0, y=2.0, heading=3.0)
+    motion = msg.Motion(agent='r', start=end, segments=[msg.Segment(length=2.0)])
+    asked = msg.AdviceRequest(
+        preconditions=['a', 'b'],
+        purpose=msg.AdviceRequest.SHORTEST_TOUR,
+        before=[1],
+        after=[0],
+        ends=[end, msg.AgentState()],
+        effort=2,
+        motions=[motion],
+    )
+    request = conversions.advice_request_from_msg(asked)
+    here = 'r', Attitude(1.0, 2.0, 3.0)
+    assert (request.purpose, request.before, request.after) == (Purpose.SHORTEST_TOUR, (1,), (0,))
+    assert (request.ends, request.effort) == ((here, None), 2)
+    assert request.motions == (Motion('r', here[1], (Segment(0.0, 2.0),)),)
+    opportunity = Opportunity(1, 0, 1.5, here)
+    answer = AdviceAnswer((), (1, 0), '', (), (), (here, None), 7.0, (opportunity,))
+    sent = conversions.advice_to_msg(answer, asked, 0.0)
+    assert [state.agent for state in sent.ends] == ['r', '']
+    assert (sent.ends[0].x, sent.tour_length) == (1.0, 7.0)
+    told = sent.opportunities[0]
+    assert (told.candidate, told.motion, told.distance, told.end.y) == (1, 0, 1.5, 2.0)
+
+
+def test_a_preferred_end_arrives_and_one_that_is_not_finite_is_named() -> None:
+    end = msg.AgentState(agent='r', x=1.0, y=2.0, heading=3.0)
+    request = conversions.request_from_msg(msg.GeometricRequest(preferred_end=[end]))
+    assert request.preferred_end == {'r': Attitude(1.0, 2.0, 3.0)}
+    end.x = nan
+    with pytest.raises(MotionPlannerError, match='the preferred end of r has x nan'):
+        conversions.request_from_msg(msg.GeometricRequest(preferred_end=[end]))
 
 
 def test_the_constants_of_the_messages_are_those_of_the_planner() -> None:

@@ -41,9 +41,14 @@ before = compiled()
 planner = MotionPlanner(read_world(Path(sys.argv[1]).read_text(), 'world.yaml'))
 state = {'rover0': Attitude(20.0, 20.0, 0.0)}
 planner.advise(AdviceRequest(tuple(map(text, range(1, 9))), state))
+for purpose in (1, 2):
+    planner.advise(AdviceRequest(tuple(map(text, range(1, 9))), state, purpose=purpose))
+planner.advise(AdviceRequest(2 * tuple(map(text, range(1, 9))), state, purpose=1))
 for k in range(1, 9):
     answer = planner.satisfy(GeometricRequest(text(k), state))
     state = answer.end or state
+    met = AdviceRequest((text(1),), state, purpose=3, motions=(answer.motion,))
+    planner.advise(met)
 seen = text(1)[:-1] + '(visible(rover0, location1))(clearance(rover0) >= 10))'
 planner.satisfy(GeometricRequest(seen, state))
 far = '(agent rover0)(object location1)(object location2)(distance(rover0, location1) <= 9)'

@@ -8,10 +8,11 @@ from math import inf
 
 from motion_planner_node.advice import pairwise
 from motion_planner_node.advice.costs import Driven, estimates, grouped, lower_bounds
-from motion_planner_node.advice.survey import Survey
+from motion_planner_node.advice.on_the_way import met_on_the_way
 from motion_planner_node.advice.purposes import TOURS, check_purpose
+from motion_planner_node.advice.survey import Survey
 from motion_planner_node.advice.tours import with_tour
-from motion_planner_node.codes import Code, Status
+from motion_planner_node.codes import Code, Purpose, Status
 from motion_planner_node.errors import MotionPlannerError
 from motion_planner_node.language import Preconditions
 from motion_planner_node.parameters import Parameters
@@ -97,6 +98,9 @@ class Advisor:
         answer = AdviceAnswer(tuple(candidates), tuple(order), self._world.revision)
         if request.purpose in TOURS:
             answer = with_tour(answer, request, driven, should_stop)
+        elif request.purpose == Purpose.OPPORTUNITIES:
+            met = met_on_the_way(self._world, self._parsed, request, state, should_stop)
+            answer = replace(answer, opportunities=tuple(met))
         if not request.pairwise:
             return answer
         bounds, estimates = pairwise.matrices(candidates, driven, should_stop)

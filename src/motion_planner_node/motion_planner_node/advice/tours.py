@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from dataclasses import replace
 from math import inf
@@ -46,7 +47,7 @@ def with_tour(
         tour = _tour_of(members, driven, before, request, should_stop)
         length += tour.length
         chain = [members[g] for g in tour.order]
-        for one, other in zip(chain, chain[1:], strict=False):
+        for one, other in itertools.pairwise(chain):
             before[one, other] = True
         before = _closed(before)
         if tour.length < inf:

@@ -1,6 +1,6 @@
 """The shortest way through groups of attitudes in a given order: dynamic programming over the chain.
 
-Group g holds the attitudes number ``first[g]`` up to ``first[g] + count[g]``; the matrix of costs [m]
+Group g holds the attitudes number ``first[g]`` up to ``first[g] + sizes[g]``; the matrix of costs [m]
 is over all attitudes.  An order is a list of groups and begins with group 0, where the robot stands.
 """
 
@@ -24,7 +24,7 @@ class Groups(NamedTuple):
 
     costs: Costs
     first: Indices
-    count: Indices
+    sizes: Indices
     before: NDArray[np.bool_]
 
 
@@ -35,21 +35,21 @@ def best_chain(groups: Groups, order: Indices) -> tuple[float, Indices]:
     Infinite where there is none; then any attitude of each group is given.
     """
     size = len(order)
-    widest = groups.count.max()
+    widest = groups.sizes.max()
     ways = np.full((size, widest), inf)
     came = np.zeros((size, widest), np.int64)
     ways[0, 0] = 0.0
     for place in range(1, size):
         here, there = order[place - 1], order[place]
-        for j in range(groups.count[there]):
-            for i in range(groups.count[here]):
+        for j in range(groups.sizes[there]):
+            for i in range(groups.sizes[here]):
                 way = (
                     ways[place - 1, i]
                     + groups.costs[groups.first[here] + i, groups.first[there] + j]
                 )
                 if way < ways[place, j]:
                     ways[place, j], came[place, j] = way, i
-    last = int(np.argmin(ways[size - 1, : groups.count[order[size - 1]]]))
+    last = int(np.argmin(ways[size - 1, : groups.sizes[order[size - 1]]]))
     shortest = ways[size - 1, last]
     chosen = np.empty(size, np.int64)
     for place in range(size - 1, -1, -1):
@@ -61,7 +61,7 @@ def best_chain(groups: Groups, order: Indices) -> tuple[float, Indices]:
 @kernel
 def ways_to(groups: Groups, order: Indices) -> Table:
     """Lengths [m], (k, widest), of the shortest ways from the start to each attitude of each group."""
-    ways = np.full((len(order), groups.count.max()), inf)
+    ways = np.full((len(order), groups.sizes.max()), inf)
     ways[0, 0] = 0.0
     for place in range(1, len(order)):
         step(groups, order[place - 1], order[place], ways[place - 1], ways[place])
@@ -72,14 +72,14 @@ def ways_to(groups: Groups, order: Indices) -> Table:
 def ways_on(groups: Groups, order: Indices) -> Table:
     """Lengths [m], (k, widest), of the shortest ways from each attitude to the end of the chain."""
     size = len(order)
-    ways = np.full((size, groups.count.max()), inf)
-    ways[size - 1, : groups.count[order[size - 1]]] = 0.0
+    ways = np.full((size, groups.sizes.max()), inf)
+    ways[size - 1, : groups.sizes[order[size - 1]]] = 0.0
     for place in range(size - 2, -1, -1):
         here, there = order[place], order[place + 1]
-        for i in range(groups.count[here]):
+        for i in range(groups.sizes[here]):
             row = groups.costs[groups.first[here] + i]
             least = inf
-            for j in range(groups.count[there]):
+            for j in range(groups.sizes[there]):
                 least = min(least, row[groups.first[there] + j] + ways[place + 1, j])
             ways[place, i] = least
     return ways
@@ -89,11 +89,11 @@ def ways_on(groups: Groups, order: Indices) -> Table:
 def step(groups: Groups, here: int, there: int, ways: Table, result: Table) -> None:
     """Fill ``result`` with the lengths [m] to the attitudes of group ``there``, after ``ways``."""
     result[:] = inf
-    for i in range(groups.count[here]):
+    for i in range(groups.sizes[here]):
         way = ways[i]
         if way < inf:
             row = groups.costs[groups.first[here] + i]
-            for j in range(groups.count[there]):
+            for j in range(groups.sizes[there]):
                 result[j] = min(result[j], way + row[groups.first[there] + j])
 
 
@@ -101,8 +101,8 @@ def step(groups: Groups, here: int, there: int, ways: Table, result: Table) -> N
 def joined(groups: Groups, here: int, there: int, ways: Table, onward: Table) -> float:
     """The shortest way [m] over group ``here``, reached after ``ways``, and ``onward`` from ``there``."""
     least = inf
-    for i in range(groups.count[here]):
+    for i in range(groups.sizes[here]):
         row = groups.costs[groups.first[here] + i]
-        for j in range(groups.count[there]):
+        for j in range(groups.sizes[there]):
             least = min(least, ways[i] + row[groups.first[there] + j] + onward[j])
     return least

@@ -13,18 +13,20 @@ from numpy.typing import NDArray
 
 from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.stopping import ShouldStop, go_on
-from motion_planner_node.tours.chains import Groups, Indices, Table
+from motion_planner_node.tours.chains import Costs, Groups, Indices
 
 #: Steps of the programme for which it is taken at most: some 0.2 s.
 MOST_STEPS = 1e8
+#: Goals for which it is taken at most: the memory doubles with each.
+MOST_EXACT = 14
 #: Sets of groups that are worked on between two questions whether to stop.
 SETS_AT_A_TIME = 64
 
 
 def is_small(groups: Groups) -> bool:
     """Whether `best_tour` is quick enough."""
-    goals, widest = len(groups.first) - 1, float(groups.count.max())
-    return goals <= 14 and 2.0**goals * (goals * widest) ** 2 / 4.0 <= MOST_STEPS
+    goals, widest = len(groups.first) - 1, float(groups.sizes.max())
+    return goals <= MOST_EXACT and 2.0**goals * (goals * widest) ** 2 / 4.0 <= MOST_STEPS
 
 
 def best_tour(groups: Groups, should_stop: ShouldStop) -> Indices:
@@ -36,7 +38,7 @@ def best_tour(groups: Groups, should_stop: ShouldStop) -> Indices:
     needed = np.zeros(goals, np.int64)
     for i, j in zip(*np.nonzero(groups.before[1:, 1:]), strict=True):
         needed[j] |= 1 << int(i)
-    widest = int(groups.count.max())
+    widest = int(groups.sizes.max())
     lengths = np.full((1 << goals, goals, widest), inf, np.float32)
     came = np.full((1 << goals, goals, widest, 2), -1, np.int16)
     _begin(groups, needed, lengths)
@@ -47,10 +49,10 @@ def best_tour(groups: Groups, should_stop: ShouldStop) -> Indices:
 
 
 @kernel
-def _begin(groups: Groups, needed: Indices, lengths: Table) -> None:
+def _begin(groups: Groups, needed: Indices, lengths: Costs) -> None:
     for g in range(len(needed)):
         if needed[g] == 0:
-            for i in range(groups.count[g + 1]):
+            for i in range(groups.sizes[g + 1]):
                 lengths[1 << g, g, i] = groups.costs[0, groups.first[g + 1] + i]
 
 
@@ -58,7 +60,7 @@ def _begin(groups: Groups, needed: Indices, lengths: Table) -> None:
 def _extend(
     groups: Groups,
     needed: Indices,
-    lengths: Table,
+    lengths: Costs,
     came: NDArray[np.int16],
     begin: int,
     end: int,
@@ -68,7 +70,7 @@ def _extend(
         for last in range(goals):
             if not visited >> last & 1:
                 continue
-            for i in range(groups.count[last + 1]):
+            for i in range(groups.sizes[last + 1]):
                 way = lengths[visited, last, i]
                 if not way < inf:
                     continue
@@ -77,14 +79,14 @@ def _extend(
                     if visited >> g & 1 or needed[g] & ~visited:
                         continue
                     more, offset = visited | 1 << g, groups.first[g + 1]
-                    for j in range(groups.count[g + 1]):
+                    for j in range(groups.sizes[g + 1]):
                         longer = way + row[offset + j]
                         if longer < lengths[more, g, j]:
                             lengths[more, g, j] = longer
                             came[more, g, j, 0], came[more, g, j, 1] = last, i
 
 
-def _order(groups: Groups, needed: Indices, lengths: Table, came: NDArray[np.int16]) -> Indices:
+def _order(groups: Groups, needed: Indices, lengths: Costs, came: NDArray[np.int16]) -> Indices:
     goals = len(needed)
     visited = (1 << goals) - 1
     last, i = np.unravel_index(int(np.argmin(lengths[visited])), lengths[visited].shape)

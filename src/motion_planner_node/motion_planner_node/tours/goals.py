@@ -13,6 +13,7 @@ from motion_planner_node.satisfaction import Program, descend
 from motion_planner_node.satisfaction.destinations import farthest_points
 from motion_planner_node.stopping import ShouldStop, go_on
 from motion_planner_node.tours.chains import Indices
+from motion_planner_node.tours.legs import spare_body
 
 #: Goals near a goal for whose sake attitudes are looked for.
 NEIGHBOURS = 6
@@ -33,7 +34,8 @@ def fit(goal: Goal, ground: Ground, part: int, rows: Rows) -> Rows:
     descent = descend(goal.program, rows, room=ground.room)
     states = descent.states[descent.satisfied]
     if len(states):
-        states = states[ground.is_free(states) & (ground.parts_of(states) == part)]
+        free = ground.scene.is_free(states, spare_body(ground.robot))
+        states = states[free & (ground.parts_of(states) == part)]
     return np.ascontiguousarray(states)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from math import hypot, inf
 
 import numpy as np
@@ -18,11 +19,13 @@ from motion_planner_node.paths.edges import (
 )
 from motion_planner_node.paths.improving import simplified
 from motion_planner_node.paths.planners import DEFAULT_PLANNER, planner_named
-from motion_planner_node.paths.query import Query
+from motion_planner_node.paths.query import SPARE_CLEARANCE, Query
 from motion_planner_node.paths.result import PathBudget
 from motion_planner_node.planning.ground import Ground
+from motion_planner_node.robots.body import Body
 from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.robot import Robot
 from motion_planner_node.robots.steering import MOST_PIECES
 from motion_planner_node.stopping import ShouldStop
 
@@ -32,13 +35,22 @@ DIRECT = 1.005
 DETOUR = 1.15
 
 
+def spare_body(robot: Robot) -> Body:
+    """The robot's body with the little clearance to spare that paths are planned with.
+
+    What touches an obstacle is not met again by a motion that begins a hair's breadth beside it.
+    """
+    body = robot.body
+    return body._replace(margin=body.margin + SPARE_CLEARANCE * robot.radius)
+
+
 class Legs:
     """Motions between attitudes of one robot, planned once each: rows of free words (k, 3)."""
 
     def __init__(self, ground: Ground, seed: int, should_stop: ShouldStop) -> None:
         robot = ground.robot
         self.frame = frame_of(
-            ground.scene.shapes, robot.body, robot.steering, robot.turning_radius
+            ground.scene.shapes, spare_body(robot), robot.steering, robot.turning_radius
         )
         self._ground = ground
         self._seed = seed
@@ -59,7 +71,7 @@ class Legs:
 
     def length(self, rows: Rows) -> float:
         """Length [m] of the whole way through attitudes (k, 3)."""
-        return sum(self.leg(a, b)[0] for a, b in zip(rows, rows[1:], strict=False))
+        return sum(self.leg(a, b)[0] for a, b in itertools.pairwise(rows))
 
     def _found(self, start: Row, end: Row) -> tuple[float, Rows]:
         pieces = np.zeros((MOST_PIECES, 4))

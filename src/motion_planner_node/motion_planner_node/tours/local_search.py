@@ -49,7 +49,7 @@ def best_place(groups: Groups, rest: Indices, moved: Indices) -> tuple[float, in
             if groups.before[group, rest[place]]:
                 high = min(high, place)
     to, on = ways_to(groups, rest), ways_on(groups, rest)
-    widest = groups.count.max()
+    widest = groups.sizes.max()
     ways, further = np.empty(widest), np.empty(widest)
     best, chosen = inf, -1
     for place in range(low, high):
@@ -61,7 +61,7 @@ def best_place(groups: Groups, rest: Indices, moved: Indices) -> tuple[float, in
         if place + 1 < len(rest):
             length = joined(groups, last, rest[place + 1], ways, on[place + 1])
         else:
-            length = ways[: groups.count[last]].min()
+            length = ways[: groups.sizes[last]].min()
         if length < best:
             best, chosen = length, place
     return best, chosen
@@ -74,11 +74,11 @@ def best_reversal(groups: Groups, order: Indices, end: int) -> tuple[float, int]
     Infinite and -1 where there is none.
     """
     to, on = ways_to(groups, order), ways_on(groups, order)
-    widest = groups.count.max()
+    widest = groups.sizes.max()
     head = order[end]
     # Ways through the reversed part, from each attitude of its head to each of its last group.
     through, further = np.full((widest, widest), inf), np.empty((widest, widest))
-    for i in range(groups.count[head]):
+    for i in range(groups.sizes[head]):
         through[i, i] = 0.0
     ways, onward = np.empty(widest), np.empty(widest)
     best, chosen = inf, -1
@@ -86,18 +86,18 @@ def best_reversal(groups: Groups, order: Indices, end: int) -> tuple[float, int]
         for place in range(first + 1, end + 1):
             if groups.before[order[first], order[place]]:
                 return best, chosen
-        for i in range(groups.count[head]):
+        for i in range(groups.sizes[head]):
             step(groups, order[first + 1], order[first], through[i], further[i])
         through, further = further, through
         step(groups, order[first - 1], head, to[first - 1], ways)
         onward[:] = inf
-        for i in range(groups.count[head]):
-            for j in range(groups.count[order[first]]):
+        for i in range(groups.sizes[head]):
+            for j in range(groups.sizes[order[first]]):
                 onward[j] = min(onward[j], ways[i] + through[i, j])
         if end + 1 < len(order):
             length = joined(groups, order[first], order[end + 1], onward, on[end + 1])
         else:
-            length = onward[: groups.count[order[first]]].min()
+            length = onward[: groups.sizes[order[first]]].min()
         if length < best:
             best, chosen = length, first
     return best, chosen

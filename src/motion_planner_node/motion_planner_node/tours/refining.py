@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 import numpy as np
@@ -38,7 +39,7 @@ def refined(
     :raises Stopped: when ``should_stop`` said so
     """
     part = ground.parts_of(rows[:1])[0]
-    ways = [legs.leg(a, b)[1].copy() for a, b in zip(rows, rows[1:], strict=False)]
+    ways = [legs.leg(a, b)[1].copy() for a, b in itertools.pairwise(rows)]
     reach = max(ground.robot.turning_radius, ground.robot.radius)
     for sweep in range(sweeps):
         spread = SPREAD * reach * SHRINKING**sweep

@@ -146,4 +146,4 @@ class Samples:
 
     def _active(self) -> np.ndarray:
         place = np.arange(len(self.states)) - self.first[self.owner]
-        return place < self.count[self.owner]
+        return np.asarray(place < self.count[self.owner])

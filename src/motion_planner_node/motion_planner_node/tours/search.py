@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import inf
+from math import ceil, inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,9 @@ from motion_planner_node.tours.legs import Legs
 from motion_planner_node.tours.local_search import short_tour
 from motion_planner_node.tours.refining import refined
 from motion_planner_node.tours.samples import Samples
+
+#: For no more goals than these all rounds of an effort are made.
+FEW = 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,12 +43,13 @@ class Work:
     corrections: int
 
     @classmethod
-    def of(cls, effort: int) -> Work:
-        """That of an effort; 8 and more are alike."""
+    def of(cls, effort: int, goals: int) -> Work:
+        """That of an effort for so many goals; 8 and more are alike, and many goals have fewer rounds."""
         level = min(effort, 8)
+        rounds = (1, 4, 12, 32)[level] if level < 4 else 32 * 2 ** (level - 3)
         return cls(
             attitudes=min(16 + 8 * level, 40),
-            rounds=(1, 4, 12, 32)[level] if level < 4 else 32 * 2 ** (level - 3),
+            rounds=ceil(rounds * FEW / max(goals, FEW)),
             sweeps=10 if level == 0 else 14,
             bridges=20 * level,
             corrections=6 + 2 * level,
@@ -90,7 +95,7 @@ class TourSearch:
         self._part = int(ground.parts_of(self._start[None, :])[0])
         self._seed, self._should_stop = seed, should_stop
         self._ends, self._fixed = ends, fixed
-        self._work = Work.of(effort)
+        self._work = Work.of(effort, len(goals))
         leg_seed = np.random.SeedSequence([seed, 0]).generate_state(1)
         self._legs = Legs(ground, int(leg_seed[0]), should_stop)
 
@@ -196,7 +201,7 @@ class TourSearch:
             length, chosen = best_chain(groups, order)
             rows = samples.states[chosen]
             changed = False
-            for a, b in zip(chosen, chosen[1:], strict=False):
+            for a, b in itertools.pairwise(chosen):
                 changed |= samples.make_real(int(a), int(b))
             real = Tour(order[1:] - 1, rows, self._legs.length(rows))
             if found is None or real.length < found.length:

@@ -1,0 +1,119 @@
+"""Orders of groups of attitudes: as good as trying all, and never against a precedence."""
+
+from __future__ import annotations
+
+from itertools import pairwise, permutations, product
+from math import inf
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from motion_planner_node.stopping import never
+from motion_planner_node.tours.chains import Groups, best_chain
+from motion_planner_node.tours.exact import best_tour
+from motion_planner_node.tours.local_search import best_place, best_reversal, short_tour
+
+
+def groups_of(seed: int, goals: int, precedences: int) -> Groups:
+    """Random groups of one to three attitudes, with random precedences that agree with an order."""
+    rng = np.random.default_rng(seed)
+    count = np.concatenate(([1], rng.integers(1, 4, goals)))
+    first = np.cumsum(count) - count
+    total = int(count.sum())
+    costs = rng.uniform(1.0, 100.0, (total, total)).astype(np.float32)
+    before = np.zeros((goals + 1, goals + 1), np.bool_)
+    before[0, 1:] = True
+    hidden = 1 + rng.permutation(goals)
+    for _ in range(precedences if goals > 1 else 0):
+        i, j = np.sort(rng.choice(goals, 2, replace=False))
+        before[hidden[i], hidden[j]] = True
+    for middle in range(goals + 1):
+        before |= np.outer(before[:, middle], before[middle])
+    return Groups(costs, first, count, before)
+
+
+def respects(groups: Groups, order: np.ndarray) -> bool:
+    place = np.argsort(order)
+    return all(place[i] < place[j] for i, j in zip(*np.nonzero(groups.before), strict=True))
+
+
+def length_by_trying(groups: Groups, order: tuple[int, ...]) -> float:
+    """The shortest way through an order, by trying all attitudes."""
+    choices = [range(groups.first[g], groups.first[g] + groups.sizes[g]) for g in order]
+    return min(
+        sum(float(groups.costs[a, b]) for a, b in pairwise(way)) for way in product(*choices)
+    )
+
+
+def best_by_trying(groups: Groups) -> float:
+    goals = range(1, len(groups.first))
+    orders = ((0, *order) for order in permutations(goals))
+    return min(length_by_trying(groups, o) for o in orders if respects(groups, np.array(o)))
+
+
+instances = st.builds(groups_of, st.integers(0, 2**32), st.integers(1, 5), st.integers(0, 3))
+
+
+@given(instances)
+@settings(max_examples=60, deadline=None)
+def test_the_exact_tour_is_the_best_of_all_orders_and_attitudes(groups: Groups) -> None:
+    order = best_tour(groups, never)
+    assert sorted(order) == list(range(len(groups.first)))
+    assert respects(groups, order)
+    length, chosen = best_chain(groups, order)
+    assert length == pytest.approx(best_by_trying(groups), rel=1e-5)
+    assert length == pytest.approx(sum(groups.costs[a, b] for a, b in pairwise(chosen)), rel=1e-5)
+
+
+@given(instances)
+@settings(max_examples=40, deadline=None)
+def test_a_chain_takes_the_attitudes_that_are_best_for_its_order(groups: Groups) -> None:
+    order = np.arange(len(groups.first))
+    expected = length_by_trying(groups, tuple(order))
+    assert best_chain(groups, order)[0] == pytest.approx(expected, rel=1e-5)
+
+
+@given(instances)
+@settings(max_examples=40, deadline=None)
+def test_a_group_is_inserted_where_that_is_shortest(groups: Groups) -> None:
+    order = best_tour(groups, never)
+    for group in order[1:]:
+        rest = order[order != group]
+        length, place = best_place(groups, rest, np.array([group]))
+        tried = [np.insert(rest, k + 1, group) for k in range(len(rest))]
+        allowed = [best_chain(groups, one)[0] for one in tried if respects(groups, one)]
+        assert length == pytest.approx(min(allowed), rel=1e-5)
+        assert respects(groups, tried[place])
+
+
+@given(instances)
+@settings(max_examples=40, deadline=None)
+def test_a_reversal_is_valued_with_the_attitudes_that_are_best_after_it(groups: Groups) -> None:
+    order = best_tour(groups, never)
+    for end in range(2, len(order)):
+        length, first = best_reversal(groups, order, end)
+        tried = []
+        for k in range(1, end):
+            turned = np.concatenate((order[:k], order[k : end + 1][::-1], order[end + 1 :]))
+            if respects(groups, turned):
+                tried.append(best_chain(groups, turned)[0])
+        assert length == pytest.approx(min(tried, default=inf), rel=1e-5)
+        assert (first < 0) is (not tried)
+
+
+@given(st.integers(0, 2**32), st.integers(1, 12), st.integers(0, 12))
+@settings(max_examples=30, deadline=None)
+def test_the_local_search_keeps_precedences_and_never_gets_worse(
+    seed: int, goals: int, precedences: int
+) -> None:
+    groups = groups_of(seed, goals, precedences)
+    begin = short_tour(groups, None, np.random.default_rng(seed), 0, never)
+    order = short_tour(groups, begin, np.random.default_rng(seed), 8, never)
+    again = short_tour(groups, begin, np.random.default_rng(seed), 8, never)
+    assert sorted(order) == list(range(goals + 1))
+    assert respects(groups, begin)
+    assert respects(groups, order)
+    assert best_chain(groups, order)[0] <= best_chain(groups, begin)[0] + 1e-3
+    assert (order == again).all()
