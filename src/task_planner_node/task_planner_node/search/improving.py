@@ -19,7 +19,7 @@ from task_planner_node.search.tours import Tour
 MOST_FRUITLESS = 3
 MOST_ROUNDS = 16
 # What a plan has to be cheaper, as a share of its cost.
-LEAST_GAIN = 1e-6
+LEAST_GAIN = 1e-4
 # Requests and choices taken back while a proposal is searched along, beside those that each stop takes.
 SPARE_REQUESTS = 8
 SPARE_BACKTRACKS = 200
