@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -112,6 +113,38 @@ def test_the_search_backs_out_of_a_tour_that_leads_nowhere(plan: Planned) -> Non
     result = plan(DOMAIN, unordered(TASKS), world)
     assert result.outcome == Outcome.SOLVED
     assert seen(result)[-1] == 'a'
+
+
+class Misled(Sites):
+    """Tours begin with the candidate that is farthest away."""
+
+    def advise(self, query: AdviceQuery) -> Advice:
+        nearest = super().advise(replace(query, purpose=Purpose.NEAREST_FIRST))
+        self.advised[-1] = query
+        if query.purpose != Purpose.SHORTEST_TOUR:
+            return nearest
+        ends = tuple(self.points[label_of(text)][0] for text in query.preconditions)
+        return replace(nearest, order=nearest.order[::-1], ends=ends)
+
+
+def test_tours_into_many_dead_ends_are_left_for_the_nearest_first(plan: Planned) -> None:
+    """Only the end of the mission tells that p0 had to be the first."""
+    domain = """(defdomain d (
+    (Operator (!visit ?p) () ((near ?p)) ())
+    (:operator (!!begin ?p) () () ((first ?p)))
+    (:operator (!finish) ((first p0)) () ())
+    (:method (see ?p) later ((first ?q)) ((!visit ?p)) at-once () ((!visit ?p) (!!begin ?p)))
+    ))"""
+    goals = [f'p{number}' for number in range(12)]
+    tasks = ' '.join(f'(see {goal})' for goal in goals)
+    problem = f'(defproblem p d () ((:unordered {tasks}) (!finish)))'
+    points = {goal: ((1.0 + number, 0.0),) for number, goal in enumerate(goals)}
+    world = Misled(points)
+    result = plan(domain, problem, world)
+    assert result.outcome == Outcome.SOLVED
+    assert seen(result) == goals
+    assert 300 <= result.statistics.backtracks < 1000
+    assert world.count(Purpose.NEAREST_FIRST) > 0
 
 
 def test_after_the_preferred_attitude_come_all_others(plan: Planned) -> None:

@@ -74,7 +74,7 @@
 (:method (achieve (received ?objective ?mode))
   ((supports ?camera ?mode)(on_board ?camera ?r)(lander ?lander))
   ((make-ready ?r ?camera)
-   (!take_image ?r ?objective ?mode ?camera)
+   (:immediate !take_image ?r ?objective ?mode ?camera)
    (!send ?r ?objective ?mode ?lander)))
 
 (:method (make-ready ?r ?camera)

@@ -17,12 +17,18 @@ from task_planner_node.search.state import State
 from task_planner_node.search.statistics import Statistics
 from task_planner_node.search.tours import Following, Tour
 
+# Choices that a search along tours takes back until one begins that tries the nearest motions first.
+PATIENCE = 300
+
 
 class Anytime:
     """The searches of one mission, all with the same memory of answers.
 
     ``search`` is the one that tells whether there is a plan, ``running`` the one that runs and ``state`` its facts.
     With ``root``, the tasks of the problem, plans are improved along the motion planner's proposals.
+
+    A tour knows nothing of the facts: where it leads into many dead ends, another order may lead to a plan at once.
+    So a first search along tours that took back too much is left for one that goes to the nearest first.
     """
 
     def __init__(
@@ -53,13 +59,16 @@ class Anytime:
             and limits.purpose == Purpose.SHORTEST_TOUR
             and (limits.optimise or limits.plans == 1)
         )
-        first = replace(limits, optimise=False, plans=1) if self._improves else limits
-        into = Plans(first, plans.keep) if self._improves else plans
-        self.search = self.running = self._search(first, into)
+        first = limits
+        if self._improves:
+            first = replace(limits, optimise=False, plans=1, most_backtracks=PATIENCE)
+        self.search = self.running = self._search(first, self._first_plans(first))
 
     def run(self, start: Token) -> None:
         """Search; the plans are left in ``plans``.  Raises what Search.run raises."""
         self.search.run(start)
+        if self.search.gave_up:
+            self._begin_anew(start)
         if not self._improves or self._plans.best is None:
             return
         root = self._root
@@ -86,6 +95,17 @@ class Anytime:
         nearest = replace(self._limits, purpose=Purpose.NEAREST_FIRST)
         self.search = self.running = self._search(nearest, self._plans)
         self.search.run(start)
+
+    def _begin_anew(self, start: Token) -> None:
+        """Search for the first plan once more, without a limit and the nearest motions first."""
+        limits = replace(self._limits, optimise=False, plans=1, purpose=Purpose.NEAREST_FIRST)
+        self.state = self.state.initial()
+        self.search = self.running = self._search(limits, self._first_plans(limits))
+        self.search.run(start)
+
+    def _first_plans(self, limits: Limits) -> Plans:
+        """Where the first plan is left."""
+        return Plans(limits, self._plans.keep) if self._improves else self._plans
 
     def _search(self, limits: Limits, plans: Plans) -> Search:
         return Search(

@@ -63,6 +63,7 @@ class Search:
         self.deepest = 0
         self.farthest = Farthest()
         self.proven = True
+        self.gave_up = False
         self.stack: list[Node] = []
         self.position: Position | None = None
         self.log: list[Expansion] = []
@@ -101,7 +102,7 @@ class Search:
                 if self._forward(position):
                     return
                 position = self._backward()
-            self.proven = not root.unproven
+            self.proven = not (root.unproven or self.gave_up)
             if not root.postponed:
                 if not self.plans.kept and not self._domain.geometric:
                     self._hopeless_from_the_start()
@@ -153,6 +154,7 @@ class Search:
             self._statistics.requests > self._most_requests
             or self._statistics.backtracks > self._most_backtracks
         ):
+            self.gave_up = True
             self._end()
         waited = self._statistics.backtracks == PATIENCE and not self._domain.geometric
         if waited and self._hopeless_from_the_start():
