@@ -137,3 +137,21 @@ def test_motions_that_make_no_sense_are_refused(motion: Motion, code: Code, word
         asked((motion,), NEAR)
     assert caught.value.code is code
     assert words in caught.value.message
+
+
+def test_faulty_texts_are_named_and_impossible_ones_are_only_never_met() -> None:
+    never = f'{NEAR[:-1]}(distance(r, o) >= 1000))'
+    request = AdviceRequest(
+        ('((agent r)(nonsense))', never, NEAR),
+        STATE,
+        purpose=Purpose.OPPORTUNITIES,
+        motions=(STRAIGHT,),
+    )
+    answer = PLANNER.advise(request)
+    assert [candidate.code >= Code.INVALID_PRECONDITIONS for candidate in answer.candidates] == [
+        True,
+        False,
+        False,
+    ]
+    assert not any(candidate.impossible for candidate in answer.candidates)
+    assert [found.candidate for found in answer.opportunities] == [2]

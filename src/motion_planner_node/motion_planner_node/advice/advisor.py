@@ -69,6 +69,8 @@ class Advisor:
             )
         check_purpose(self._world, request)
         state = checked_state(self._world, request.start)
+        if request.purpose == Purpose.OPPORTUNITIES:
+            return self._along_motions(request, state, should_stop)
         candidates, driven = [], {}
         standing = _Standing(state)
         for index, text in enumerate(request.preconditions):
@@ -91,9 +93,6 @@ class Advisor:
         answer = AdviceAnswer(tuple(candidates), tuple(order), self._world.revision)
         if request.purpose in TOURS:
             answer = with_tour(answer, request, driven, should_stop)
-        elif request.purpose == Purpose.OPPORTUNITIES:
-            met = met_on_the_way(self._world, self._parsed, request, state, should_stop)
-            answer = replace(answer, opportunities=tuple(met))
         if not request.pairwise:
             return answer
         bounds, estimates = pairwise.matrices(candidates, driven, should_stop)
@@ -102,6 +101,23 @@ class Advisor:
             pairwise_lower_bounds=tuple(bounds.ravel().tolist()),
             pairwise_estimates=tuple(estimates.ravel().tolist()),
         )
+
+    def _along_motions(
+        self, request: AdviceRequest, state: GeometricState, should_stop: ShouldStop
+    ) -> AdviceAnswer:
+        """Opportunities; what candidates cost, or whether they are impossible, is not looked at."""
+        met = met_on_the_way(self._world, self._parsed, request, state, should_stop)
+        candidates = tuple(self._readable(text, state) for text in request.preconditions)
+        order = tuple(range(len(candidates)))
+        return AdviceAnswer(candidates, order, self._world.revision, opportunities=tuple(met))
+
+    def _readable(self, text: str, state: GeometricState) -> CandidateAdvice:
+        """What is wrong with a text, if anything."""
+        try:
+            problem = read_problem(self._world, self._parsed(text), state)
+        except MotionPlannerError as error:
+            return CandidateAdvice(code=error.code, message=error.message)
+        return CandidateAdvice(objects=problem.program.objects)
 
     def _known(
         self, text: str, standing: _Standing, seed: int, should_stop: ShouldStop
