@@ -29,7 +29,8 @@ def plan_of(
 ) -> dict[str, Any]:
     """The plan that drives ``legs`` and takes a photo of ``labels[i]`` at the end of leg i."""
     first = _attitude(legs[0][0])
-    steps = [_step(['!init_rover_attitude', 'rover0', 'location0'], first, first, [])]
+    begin = _step(['!init_rover_attitude', 'rover0', 'location0'], first, first, [])
+    steps = [begin | {'assigned': True}]
     for leg, label in zip(legs, labels, strict=True):
         action = ['!take_photo', 'rover0', label, 'cam_0']
         segments = _segments(ground, leg, robot['max_steering_angle'])
@@ -53,6 +54,7 @@ def _step(
         'end': end,
         'segments': segments,
         'length': length,
+        'assigned': False,
     }
 
 

@@ -185,7 +185,7 @@ def test_clients_and_a_new_world_under_load_disturb_no_answer(rover: Client) -> 
         alone[revision] = [plain(rover.satisfy(text)) for text in texts]
     clients = [rover, Client()]
     try:
-        clients[1].settle()
+        clients[1].satisfy(texts[0])
         futures = [(client, client.begin(text)) for text in texts for client in clients]
         changed = rover.set_world(OTHER)
         futures += [(client, client.begin(text)) for text in texts for client in clients]

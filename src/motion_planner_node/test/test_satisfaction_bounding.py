@@ -103,6 +103,9 @@ def test_bounds_are_as_tight_as_those_of_the_functions(
     boxes = intervals(*box_of(corner, size))
     (ours,), (theirs,) = compiled.bounds(*boxes), opaque.bounds(*boxes)
     for one, other in ((ours.low, theirs.low), (ours.high, theirs.high)):
+        if compiled.rows[0].periodic:
+            # Half a turn to the left is half a turn to the right.
+            other = one - np.remainder(one - other + math.pi, 2.0 * math.pi) + math.pi
         assert one == pytest.approx(other, rel=1e-9, abs=1e-9)
 
 
