@@ -15,6 +15,7 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
 from motion_planner_node import conversions
+from motion_planner_node.advice.purposes import shares_of_budget
 from motion_planner_node.errors import MotionPlannerError, guarded
 from motion_planner_node.executor_node import AtMost, RelayExecutor
 from motion_planner_node.functions import PluginError, load_plugins
@@ -164,7 +165,8 @@ class MotionPlannerNode(Node):
     def _advice(self, asked: msg.AdviceRequest) -> AdviceAnswer:
         planner = self._worlds.current()
         request = conversions.advice_request_from_msg(asked)
-        with self._turns.take(asked.request_id, self._budget(0.0)) as turn:
+        budget = self._budget(0.0) * shares_of_budget(request)
+        with self._turns.take(asked.request_id, budget) as turn:
             return guarded(lambda: planner.advise(request, turn), self.get_logger().error)
 
     def _cancel(

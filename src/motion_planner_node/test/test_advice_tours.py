@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from motion_planner_node.advice.purposes import shares_of_budget
 from motion_planner_node.codes import Code, Purpose
 from motion_planner_node.errors import MotionPlannerError, Stopped
 from motion_planner_node.planner import MotionPlanner
@@ -166,3 +167,15 @@ def test_requests_that_make_no_sense_are_refused(
         tour(**more)
     assert caught.value.code is code
     assert words in caught.value.message
+
+
+def test_many_candidates_and_higher_efforts_are_granted_more_time() -> None:
+    def shares(count: int, purpose: Purpose, effort: int = 0) -> float:
+        return shares_of_budget(
+            AdviceRequest(TEXTS[:1] * count, STATE, purpose=purpose, effort=effort)
+        )
+
+    assert shares(256, Purpose.NEAREST_FIRST) == 1.0
+    assert shares(8, Purpose.SHORTEST_TOUR) == 1.0
+    assert shares(256, Purpose.SHORTEST_TOUR) == 16.0
+    assert shares(32, Purpose.FIXED_ORDER, effort=2) == 8.0

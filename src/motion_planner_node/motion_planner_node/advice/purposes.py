@@ -13,6 +13,8 @@ from motion_planner_node.world.model import World
 
 #: Purposes for which an order and ends are looked for.
 TOURS = frozenset({Purpose.SHORTEST_TOUR, Purpose.FIXED_ORDER})
+#: Candidates of a tour for which the budget of a request is granted once, as for other advice.
+PER_SHARE = 16
 #: Motions of one request at most.
 MOST_MOTIONS = 1000
 
@@ -35,6 +37,16 @@ def check_purpose(world: World, request: AdviceRequest) -> None:
         _check_precedences(request)
     if request.purpose == Purpose.OPPORTUNITIES:
         _check_motions(world, request)
+
+
+def shares_of_budget(request: AdviceRequest) -> float:
+    """How many times the budget of an ordinary request this one is granted: at least once.
+
+    A tour is granted more for more candidates, and twice as much for each level of effort up to 8.
+    """
+    if request.purpose not in TOURS:
+        return 1.0
+    return max(1.0, len(request.preconditions) / PER_SHARE) * 2.0 ** min(request.effort, 8)
 
 
 def _check_ends(world: World, request: AdviceRequest) -> None:
