@@ -45,7 +45,7 @@ class Sizes:
     arc: float
 
 
-FULL = Sizes(seeds=10, budget=30.0, arc=3.0)
+FULL = Sizes(seeds=10, budget=30.0, arc=4.0)
 QUICK = Sizes(seeds=1, budget=2.0, arc=9.0)
 
 

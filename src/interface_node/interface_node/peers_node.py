@@ -10,10 +10,10 @@ from action_msgs.msg import GoalStatus
 from geohtn_msgs.action import PlanTasks
 from geohtn_msgs.msg import Outcome
 from geohtn_msgs.srv import Explain, GetWorld, SetWorld
-from rclpy.action import ActionClient
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node
 
+from interface_node.goal_client_node import GoalClient
 from interface_node.pulse_node import Pulse
 from interface_node.starting import start_command
 from interface_node.waiting import Cancelled, TimedOut, wait_for, wait_until
@@ -39,7 +39,7 @@ class Peers:
         self._get_world = node.create_client(GetWorld, 'get_world', callback_group=group)
         self._set_world = node.create_client(SetWorld, 'set_world', callback_group=group)
         self._explain = node.create_client(Explain, 'explain', callback_group=group)
-        self._plan_tasks = ActionClient(node, PlanTasks, 'plan_tasks', callback_group=group)
+        self._plan_tasks = GoalClient(node, PlanTasks, 'plan_tasks', callback_group=group)
 
     def check(self, timeout: float, should_stop: ShouldStop) -> None:
         """Return when both nodes answer; raises Unavailable after ``timeout`` [s]."""

@@ -12,7 +12,6 @@ import rclpy
 from geohtn_msgs.action import PlanMission
 from geohtn_msgs.msg import PlanningOptions, SourceText
 from geohtn_msgs.srv import Explain, SatisfyPreconditions
-from rclpy.action import ActionClient
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
@@ -21,6 +20,7 @@ from interface_node.command_line.goals import MissionGoal
 from interface_node.command_line.missions import Source
 from interface_node.command_line.results import MissionResult, Progress
 from interface_node.conversions import plan_from_messages
+from interface_node.goal_client_node import GoalClient
 
 
 class MissionClient:
@@ -50,7 +50,7 @@ class MissionClient:
             start_parameter_services=False,
             enable_rosout=False,
         )
-        self._missions = ActionClient(self._node, PlanMission, 'plan_mission')
+        self._missions = GoalClient(self._node, PlanMission, 'plan_mission')
         explain = self._node.create_client(Explain, 'explain')
         satisfy = self._node.create_client(SatisfyPreconditions, 'satisfy_preconditions')
         self._servers = {
