@@ -98,10 +98,12 @@ def summary(plans: Sequence[Mapping[str, Any]]) -> dict[str, dict[str, float]]:
     """Median, least and greatest of every figure over ``plans``."""
     figures = {key: [plan['statistics'][key] for plan in plans] for key in (*TIMES, *COUNTS)}
     figures['length'] = [plan['length'] for plan in plans]
-    return {
-        key: {'median': statistics.median(values), 'min': min(values), 'max': max(values)}
-        for key, values in figures.items()
-    }
+    return {key: middle_and_ends(values) for key, values in figures.items()}
+
+
+def middle_and_ends(values: Sequence[float]) -> dict[str, float]:
+    """Median, least and greatest of figures."""
+    return {'median': statistics.median(values), 'min': min(values), 'max': max(values)}
 
 
 def spread(figure: Mapping[str, float], digits: int = 0) -> str:

@@ -7,13 +7,12 @@ constrain each other, and a rover that samples, calibrates cameras and delivers.
 from __future__ import annotations
 
 import shutil
-import statistics
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from experiments.paper.part import Claim, Part, write_csv
-from experiments.planning import Nodes, nodes_up
+from experiments.planning import Nodes, middle_and_ends, nodes_up, spread
 from experiments.results import Target
 from tests.support.checker import Judge
 
@@ -146,23 +145,14 @@ def _text(plans: Sequence[Planned], table: Path) -> str:
             f'`{mission}`',
             shows,
             f'{solved} of {len(own)}',
-            _spread([plan.actions for plan in own], 0),
-            _spread([plan.length for plan in own], 0),
-            _spread([plan.planning_time for plan in own], 1),
-            _spread([plan.requests for plan in own], 0),
-            _spread([plan.not_found for plan in own], 0),
-            _spread([plan.backtracks for plan in own], 0),
+            spread(middle_and_ends([plan.actions for plan in own]), 0),
+            spread(middle_and_ends([plan.length for plan in own]), 0),
+            spread(middle_and_ends([plan.planning_time for plan in own]), 1),
+            spread(middle_and_ends([plan.requests for plan in own]), 0),
+            spread(middle_and_ends([plan.not_found for plan in own]), 0),
+            spread(middle_and_ends([plan.backtracks for plan in own]), 0),
             str(sum(len(plan.faults) for plan in own)),
         ]
         lines.append('| ' + ' | '.join(cells) + ' |')
     lines += ['', f'Every plan is a line of `{table.name}`.']
     return '\n'.join(lines)
-
-
-def _spread(values: Sequence[float], digits: int) -> str:
-    """Median, and least to greatest where they differ."""
-    low, middle, high = min(values), statistics.median(values), max(values)
-    shown = f'{middle:.{digits}f}'
-    if f'{low:.{digits}f}' == f'{high:.{digits}f}':
-        return shown
-    return f'{shown} ({low:.{digits}f} to {high:.{digits}f})'

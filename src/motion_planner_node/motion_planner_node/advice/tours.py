@@ -54,7 +54,8 @@ def with_tour(
             for index, row in zip(chain, tour.rows[1:].tolist(), strict=True):
                 ends[index] = (mover, Attitude(*row))
     order = _merged(possible, before)
-    order += [index for index in answer.order if index not in set(possible)]
+    reached = set(possible)
+    order += [index for index in answer.order if index not in reached]
     return replace(answer, order=tuple(order), ends=tuple(ends), tour_length=length)
 
 
