@@ -32,6 +32,8 @@ The figures of `make experiment-motion` on one machine, written by the experimen
 - **The usual way** is OMPL's RRTConnect in a Dubins space with its path simplifier, again and again until the time is
   up, the best path counting; points along motions are looked up in a map of distances. Paths that the simplifier
   broke count as they were before.
+- **All planners** get the same legs between two attitudes. How many iterations it takes depends on the planner and the
+  world: each that samples begins with few and gets twice as many until it has a path, for 3 s at most.
 """
 
 
