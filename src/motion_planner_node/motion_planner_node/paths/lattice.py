@@ -154,15 +154,19 @@ def _rest(frame: Frame, field: Field, task: Task, pose: Row, pieces: Rows) -> fl
 
 @kernel
 def plant(
-    lattice: Lattice, frame: Frame, field: Field, grain: Grain, task: Task, roots: Rows
+    lattice: Lattice, frame: Frame, field: Field, grain: Grain, task: Task, roots: Rows, costs: Row
 ) -> None:
-    """Begin at free ``roots`` (k, 3); there has to be room for them."""
+    """Begin at free ``roots`` (k, 3), to which ways of ``costs`` (k,) have led.
+
+    There has to be room for them.
+    """
     pieces = np.zeros((MOST_PIECES, 4))
     for k in range(len(roots)):
         slot, key = _slot(lattice, grain, roots[k, 0], roots[k, 1], roots[k, 2])
         rest = _rest(frame, field, task, roots[k], pieces)
-        if rest < inf and _is_wanted(lattice, slot, 0.0):
-            _add(lattice, slot, key, roots[k], 0.0, -1 - k, grain.weight * rest)
+        if rest < inf and _is_wanted(lattice, slot, costs[k]):
+            rank = costs[k] + grain.weight * rest
+            _add(lattice, slot, key, roots[k], costs[k], -1 - k, rank)
 
 
 @kernel
@@ -230,22 +234,18 @@ def grow(
     return GOES_ON
 
 
-def path_of(lattice: Lattice, task: Task) -> Rows | None:
-    """The best way as attitudes (n, 3) in the order in which it is driven; None for none."""
-    i = int(lattice.counts[_BEST])
-    if i < 0:
-        return None
-    path = path_to(lattice, i, task.target)
-    return path if task.sign > 0.0 else path[::-1].copy()
+def last_of_best(lattice: Lattice) -> int:
+    """Number of the attitude from which the best way reaches the target; -1 for none."""
+    return int(lattice.counts[_BEST])
 
 
-def path_to(lattice: Lattice, i: int, target: Row) -> Rows:
-    """The attitudes (n, 3) from a root to number ``i``, and then ``target``."""
-    rows = [target]
+def way_to(lattice: Lattice, i: int) -> tuple[int, Rows]:
+    """Number of the root from which attitude ``i`` was reached, and the attitudes (n, 3) from it to ``i``."""
+    rows = []
     while i >= 0:
         rows.append(lattice.rows[i])
         i = int(lattice.links[i])
-    return np.array(rows[::-1])
+    return -1 - i, np.array(rows[::-1])
 
 
 def best_root(lattice: Lattice) -> int:
