@@ -21,6 +21,7 @@ from motion_planner_node.paths.lattice import (
     Task,
     attitudes,
     best_root,
+    enlarged,
     expanded,
     grow,
     new_lattice,
@@ -107,8 +108,11 @@ class _End:
         moves = moves_of(robot, step, 2.0 * pi / level.headings, LEAPS)
         prices = np.abs(moves[:, 1]) + TURN_PRICE * step * np.abs(moves[:, 3])
         self._task = Task(target, sign, moves, prices)
-        most = level.effort * query.budget.attitudes + len(roots)
-        self.lattice: Lattice = new_lattice(most, longest, query.budget.improving)
+        #: Attitudes that there may be, and by how many one look at most adds to them.
+        self._most = level.effort * query.budget.attitudes + len(roots)
+        self._step = CHUNK * len(moves)
+        room = min(len(roots) + self._step, self._most)
+        self.lattice: Lattice = new_lattice(room, longest, query.budget.improving)
         plant(self.lattice, query.frame, self.field, self._grain, self._task, roots)
         self.state = GOES_ON
 
@@ -117,9 +121,17 @@ class _End:
         query = self._query
         while self.state == GOES_ON and (expansions > 0 or self.path is not None):
             query.check_time()
+            self._make_room()
             self.state = grow(self.lattice, query.frame, self.field, self._grain, self._task, CHUNK)
             expansions -= CHUNK
         return self.path
+
+    def _make_room(self) -> None:
+        """Room for what one more look adds: most searches end long before they use all they may."""
+        room = len(self.lattice.costs)
+        needed = min(attitudes(self.lattice) + self._step, self._most)
+        if needed > room:
+            self.lattice = enlarged(self.lattice, min(max(needed, 2 * room), self._most))
 
     def shot(self, goals: Rows, longest: float) -> Rows | None:
         """A path of less than ``longest`` [m] from what was looked at on to another of the ``goals``."""
