@@ -100,6 +100,42 @@ def new_lattice(most: int, longest: float, improving: int) -> Lattice:
     )
 
 
+def enlarged(lattice: Lattice, most: int) -> Lattice:
+    """The same with room for ``most`` attitudes, which are no fewer."""
+    larger = new_lattice(most, 0.0, 0)._replace(counts=lattice.counts, best=lattice.best)
+    count, waiting = attitudes(lattice), int(lattice.queue.size[0])
+    for old, new in zip(lattice[:4], larger[:4], strict=True):
+        new[:count] = old[:count]
+    larger.queue.keys[:waiting] = lattice.queue.keys[:waiting]
+    larger.queue.items[:waiting] = lattice.queue.items[:waiting]
+    larger.queue.size[0] = waiting
+    _move_cells(lattice.table, lattice.holders, larger.table, larger.holders)
+    return larger
+
+
+@kernel
+def _move_cells(
+    table: NDArray[np.int64],
+    holders: NDArray[np.int64],
+    larger: NDArray[np.int64],
+    their_holders: NDArray[np.int64],
+) -> None:
+    for slot in range(len(table)):
+        if table[slot] != -1:
+            to = _find(larger, table[slot])
+            larger[to], their_holders[to] = table[slot], holders[slot]
+
+
+@kernel
+def _find(table: NDArray[np.int64], key: int) -> int:
+    """Where a key is in the table or belongs."""
+    mask = len(table) - 1
+    slot = (key * 40503 + (key >> 7)) & mask
+    while table[slot] != -1 and table[slot] != key:
+        slot = (slot + 1) & mask
+    return slot
+
+
 @kernel
 def _slot(lattice: Lattice, grain: Grain, x: float, y: float, heading: float) -> tuple[int, int]:
     """Where in the table the cell of an attitude is or belongs, and its key."""
@@ -107,11 +143,7 @@ def _slot(lattice: Lattice, grain: Grain, x: float, y: float, heading: float) ->
     sector = int((turns - floor(turns)) * grain.headings + 0.5) % grain.headings
     column, row = int((x - grain.corner[0]) / grain.cell), int((y - grain.corner[1]) / grain.cell)
     key = ((column << 24) + row) * grain.headings + sector
-    mask = len(lattice.table) - 1
-    slot = (key * 40503 + (key >> 7)) & mask
-    while lattice.table[slot] != -1 and lattice.table[slot] != key:
-        slot = (slot + 1) & mask
-    return slot, key
+    return _find(lattice.table, key), key
 
 
 @kernel

@@ -15,6 +15,7 @@ from motion_planner_node.paths.lattice import (
     Task,
     attitudes,
     best_root,
+    enlarged,
     expanded,
     grow,
     last_of_best,
@@ -115,8 +116,11 @@ class End:
         moves = moves_of(robot, step, 2.0 * pi / level.headings, LEAPS)
         prices = np.abs(moves[:, 1]) + TURN_PRICE * step * np.abs(moves[:, 3])
         self._task = Task(target, sign, moves, prices)
-        most = level.effort * query.budget.attitudes + len(roots.rows)
-        self.lattice: Lattice = new_lattice(most, longest, query.budget.improving)
+        #: Attitudes that there may be, and by how many one look at most adds to them.
+        self._most = level.effort * query.budget.attitudes + len(roots.rows)
+        self._step = CHUNK * len(moves)
+        room = min(len(roots.rows) + self._step, self._most)
+        self.lattice: Lattice = new_lattice(room, longest, query.budget.improving)
         frame = query.frame
         plant(self.lattice, frame, self.field, self._grain, self._task, roots.rows, roots.costs)
         self.state = GOES_ON
@@ -131,9 +135,17 @@ class End:
         query = self._query
         while self.state == GOES_ON and (expansions > 0 or self.has_path):
             query.check_time()
+            self._make_room()
             self.state = grow(self.lattice, query.frame, self.field, self._grain, self._task, CHUNK)
             expansions -= CHUNK
         return self.path
+
+    def _make_room(self) -> None:
+        """Room for what one more look adds: most searches end long before they use all they may."""
+        room = len(self.lattice.costs)
+        needed = min(attitudes(self.lattice) + self._step, self._most)
+        if needed > room:
+            self.lattice = enlarged(self.lattice, min(max(needed, 2 * room), self._most))
 
     def shot(self, goals: Rows, longest: float) -> Rows | None:
         """A path of less than ``longest`` [m] from what was looked at on to another of the ``goals``.
@@ -160,8 +172,8 @@ class End:
 
     def as_roots(self) -> Roots:
         """Another search that begins where this one has been; this one had no way behind its roots."""
-        rows = self.rows.copy()
-        return Roots(rows, self.lattice.costs[: len(rows)].copy(), self.lattice)
+        rows = self.rows
+        return Roots(rows, self.lattice.costs[: len(rows)], self.lattice)
 
     def way_to_best_root(self) -> Rows:
         """The attitudes (n, 3) from where all began to the root that is the most promising now."""

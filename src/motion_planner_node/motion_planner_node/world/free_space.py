@@ -75,21 +75,15 @@ class TravelField:
         self.cell = grid.cell
 
     def at(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Estimates [m] at points, of the shape of ``x`` and ``y``; infinite where no way leads.
+        """Estimates [m] at points, of the shape of both ``x`` and ``y``; infinite where no way leads.
 
         Never less than the straight distance.
         """
-        x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
-        flat = travel_at_each(
-            self.distances,
-            *self.corner,
-            self.cell,
-            np.array(x).reshape(-1),
-            np.array(y).reshape(-1),
-        )
-        estimate = flat.reshape(x.shape)
-        straight = np.hypot(x - self.origin[0], y - self.origin[1])
-        return np.asarray(np.maximum(estimate, straight))
+        xs, ys = np.asarray(x, np.float64), np.asarray(y, np.float64)
+        flat = np.ascontiguousarray(xs.reshape(-1)), np.ascontiguousarray(ys.reshape(-1))
+        around = travel_at_each(self.distances, *self.corner, self.cell, *flat)
+        straight = np.hypot(xs - self.origin[0], ys - self.origin[1])
+        return np.asarray(np.maximum(around.reshape(xs.shape), straight))
 
 
 class FreeSpace:
