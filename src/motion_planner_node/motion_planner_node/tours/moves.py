@@ -28,8 +28,7 @@ NEIGHBOURS = 10
 #: Lengths [m] that are as near as this are the same but for rounding.
 SAME = 1e-7
 
-#: What the numbers of a move are: its kind, its first and last place, the place after which the part
-#: between them goes, and whether it is turned round on the way.
+#: Kinds of moves.
 NONE, MOVED, REVERSED = range(3)
 
 
@@ -52,14 +51,18 @@ class Tables(NamedTuple):
 
 
 class Move(NamedTuple):
-    """A move and the ``length`` [m] of the order after it."""
+    """A move and the ``length`` [m] of the order after it.
+
+    The places from ``first`` to ``last`` go behind the place ``after``, or stay there if it is REVERSED.
+    They are ``turned`` round on the way if that is not 0.
+    """
 
     length: float
     kind: int
     first: int
     last: int
     after: int
-    turned: bool
+    turned: int
 
 
 @kernel
@@ -249,7 +252,7 @@ def best_move(
     order, size = tables.order, len(tables.order)
     widest = tables.to.shape[1]
     ways, fresh = np.empty(widest), np.empty(widest)
-    best = Move(inf, NONE, 0, 0, 0, False)
+    best = Move(inf, NONE, 0, 0, 0, 0)
     first = tables.place[group]
     for last in range(first, min(first + MOST_MOVED, size)):
         low, high = _limits(groups, tables, bound, first, last)
@@ -290,7 +293,7 @@ def best_move(
                         groups, tables, tail, ways, follows, tables.on[follows]
                     )
                 if length < best.length:
-                    best = Move(length, MOVED, first, last, after, turned == 1)
+                    best = Move(length, MOVED, first, last, after, turned)
     here = tables.place[group]
     for other in near[group]:
         there = tables.place[other]
@@ -302,7 +305,7 @@ def best_move(
                 continue
             length = reversal(groups, tables, begin, end)
             if length < best.length:
-                best = Move(length, REVERSED, begin, end, begin - 1, True)
+                best = Move(length, REVERSED, begin, end, begin - 1, 1)
     return best
 
 

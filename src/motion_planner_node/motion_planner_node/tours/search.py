@@ -184,31 +184,25 @@ class TourSearch:
             np.pad(self._before, ((1, 0), (1, 0))),
         )
         groups.before[0, 1:] = True
-        order: Indices | None = None
-        if best.length < inf:
-            order = np.concatenate(([0], best.order + 1))
-        fixed = np.arange(len(groups.first)) if self._fixed else None
         search = None if self._fixed or is_small(groups) else LocalSearch(groups, self._should_stop)
+        known = np.concatenate(([0], best.order + 1)) if best.length < inf else None
         found = None
+        changed = order = np.arange(len(groups.first))
         for number in range(self._work.corrections):
-            if fixed is not None:
-                order = fixed
-            elif search is None:
+            if search is not None and number == 0:
+                order = search.tour(known, self._work.bridges, rng)
+            elif search is not None:
+                order = search.improved(order, changed)[1]
+            elif not self._fixed:
                 order = best_tour(groups, self._should_stop)
-            elif number == 0:
-                order = search.tour(order, self._work.bridges, rng)
-            else:
-                assert order is not None
-                order = search.improved(order, samples.owner[changed])[1]
             length, chosen = best_chain(groups, order)
             rows = samples.states[chosen]
-            changed = np.array(
-                [pair for pair in itertools.pairwise(chosen) if samples.make_real(*pair)], np.int64
-            ).ravel()
+            legs = [pair for pair in itertools.pairwise(chosen) if samples.make_real(*pair)]
             real = Tour(order[1:] - 1, rows, self._legs.length(rows))
             if found is None or real.length < found.length:
                 found = real
-            if not len(changed) or not length < inf:
+            if not legs or not length < inf:
                 break
+            changed = samples.owner[np.ravel(legs)]
         assert found is not None
         return found
