@@ -86,7 +86,7 @@ class Survey:
 
     def holds_at(self, start: Attitude) -> bool:
         """Whether the constraints are met at ``start`` already."""
-        return not self.problem.program.unmet(start)
+        return self.problem.program.holds_at(start)
 
     def _reached(self, start: Attitude, here: int) -> Reach:
         ground = self.ground

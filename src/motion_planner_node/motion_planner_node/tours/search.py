@@ -162,11 +162,11 @@ class TourSearch:
         for index, goal in enumerate(self._goals):
             go_on(self._should_stop)
             cells = goal.program.places(bounds)
-            which = rng.integers(len(cells), size=FRESH)
+            x_lo, y_lo, x_hi, y_hi = cells[rng.integers(len(cells), size=FRESH)].T
             begin = np.column_stack(
                 (
-                    rng.uniform(cells.x_lo[which], cells.x_hi[which]),
-                    rng.uniform(cells.y_lo[which], cells.y_hi[which]),
+                    rng.uniform(x_lo, x_hi),
+                    rng.uniform(y_lo, y_hi),
                     rng.uniform(-np.pi, np.pi, FRESH),
                 )
             )
