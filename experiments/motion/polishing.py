@@ -81,28 +81,60 @@ def sparse(ground: Ground, rows: Array, most: int) -> Array:
 
 
 @compiled
+def word_lengths(ground: Ground, way: Array) -> Array:
+    """Lengths [m], (n - 1,), between the attitudes (n, 3) of ``way``."""
+    pieces = np.empty((6, 3))
+    lengths = np.empty(len(way) - 1)
+    for i in range(len(lengths)):
+        lengths[i] = free_word(ground, way[i], way[i + 1], inf, pieces)[0]
+    return lengths
+
+
+@compiled
+def displace(ground: Ground, pose: Array, draw: Array, reach: float, other: Array) -> None:
+    """Set ``other`` (3,) to ``pose`` (3,), moved by up to ``reach`` [m] as ``draw`` (4,) has it."""
+    size = reach * 0.5 ** (16.0 * draw[3])
+    other[0] = pose[0] + size * draw[0]
+    other[1] = pose[1] + size * draw[1]
+    other[2] = pose[2] + min(size / ground.radius, pi) * draw[2]
+
+
+@compiled
+def take_if_shorter(ground: Ground, way: Array, lengths: Array, i: int, other: Array) -> None:
+    """Put ``other`` in the place of attitude ``i`` > 0 where that makes ``way`` shorter.
+
+    ``lengths`` are those of `word_lengths`, and are kept up to date.
+    """
+    pieces = np.empty((6, 3))
+    is_last = i == len(way) - 1
+    total = lengths[i - 1]
+    if not is_last:
+        total += lengths[i]
+    first = free_word(ground, way[i - 1], other, total, pieces)[0]
+    if not first < total:
+        return
+    second = 0.0
+    if not is_last:
+        second = free_word(ground, other, way[i + 1], total - first, pieces)[0]
+    if first + second < total:
+        way[i] = other
+        lengths[i - 1] = first
+        if not is_last:
+            lengths[i] = second
+
+
+@compiled
 def moved(ground: Ground, way: Array, aim: Aim, draws: Array, reach: float) -> None:
     """Move single attitudes of ``way`` where that makes it shorter, the last within the goal."""
     count = len(way)
     if count < 2:
         return
-    pieces = np.empty((6, 3))
-    lengths = np.empty(count - 1)
-    for i in range(count - 1):
-        lengths[i] = free_word(ground, way[i], way[i + 1], inf, pieces)[0]
+    lengths = word_lengths(ground, way)
     other = np.empty(3)
     for k in range(len(draws)):
         i = 1 + k % (count - 1)
-        size = reach * 0.5 ** (16.0 * draws[k, 3])
-        for axis in range(3):
-            other[axis] = way[i, axis]
-        other[0] += size * draws[k, 0]
-        other[1] += size * draws[k, 1]
-        other[2] += min(size / ground.radius, pi) * draws[k, 2]
-        total = lengths[i - 1]
-        if i < count - 1:
-            total += lengths[i]
-        else:
+        displace(ground, way[i], draws[k], reach, other)
+        if i == count - 1:
             if not in_goal(aim, other[0], other[1], 0.0):
                 continue
             # Onto the headings that the goal allows: the nearest of them.
@@ -114,18 +146,7 @@ def moved(ground: Ground, way: Array, aim: Aim, draws: Array, reach: float) -> N
                 other[2] += step
                 if heading_error(aim, other[0], other[1], other[2]) > 1e-9:
                     continue
-        first = free_word(ground, way[i - 1], other, total, pieces)[0]
-        if not first < total:
-            continue
-        second = 0.0
-        if i < count - 1:
-            second = free_word(ground, other, way[i + 1], total - first, pieces)[0]
-        if first + second < total:
-            for axis in range(3):
-                way[i, axis] = other[axis]
-            lengths[i - 1] = first
-            if i < count - 1:
-                lengths[i] = second
+        take_if_shorter(ground, way, lengths, i, other)
 
 
 def polished(

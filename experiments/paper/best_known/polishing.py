@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import atan2, hypot, inf, pi
+from math import atan2, hypot
 
 import numpy as np
 from numpy.typing import NDArray
 
-from experiments.motion.geometry import Array, Ground, compiled, free_word
-from experiments.motion.polishing import dense, sparse, way_length
+from experiments.motion.geometry import Array, Ground, compiled
+from experiments.motion.polishing import (
+    dense,
+    displace,
+    sparse,
+    take_if_shorter,
+    way_length,
+    word_lengths,
+)
 
 #: Rounds without a gain of this share after which it ends.
 PATIENCE, GAIN = 4, 1e-4
@@ -27,17 +34,11 @@ def moved(
     greatest distance [m], and the heading less the bearing of the middle [rad].
     """
     count = len(way)
-    pieces = np.empty((6, 3))
-    lengths = np.empty(count - 1)
-    for i in range(count - 1):
-        lengths[i] = free_word(ground, way[i], way[i + 1], inf, pieces)[0]
+    lengths = word_lengths(ground, way)
     other = np.empty(3)
     for k in range(len(draws)):
         i = 1 + k % (count - 1)
-        size = reach * 0.5 ** (16.0 * draws[k, 3])
-        other[0] = way[i, 0] + size * draws[k, 0]
-        other[1] = way[i, 1] + size * draws[k, 1]
-        other[2] = way[i, 2] + min(size / ground.radius, pi) * draws[k, 2]
+        displace(ground, way[i], draws[k], reach, other)
         if ring_of[i] >= 0:
             ring = rings[ring_of[i]]
             away = hypot(other[0] - ring[0], other[1] - ring[1])
@@ -46,21 +47,7 @@ def moved(
             other[0] = ring[0] + (other[0] - ring[0]) * wanted / away
             other[1] = ring[1] + (other[1] - ring[1]) * wanted / away
             other[2] = atan2(ring[1] - other[1], ring[0] - other[0]) + ring[4]
-        total = lengths[i - 1]
-        if i < count - 1:
-            total += lengths[i]
-        first = free_word(ground, way[i - 1], other, total, pieces)[0]
-        if not first < total:
-            continue
-        second = 0.0
-        if i < count - 1:
-            second = free_word(ground, other, way[i + 1], total - first, pieces)[0]
-        if first + second < total:
-            for axis in range(3):
-                way[i, axis] = other[axis]
-            lengths[i - 1] = first
-            if i < count - 1:
-                lengths[i] = second
+        take_if_shorter(ground, way, lengths, i, other)
 
 
 def polished(
