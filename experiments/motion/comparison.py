@@ -20,7 +20,7 @@ from experiments.motion.goals import AGENT
 from experiments.motion.reference import Known
 from experiments.motion.worlds import Place
 from motion_planner_node.errors import Stopped
-from motion_planner_node.paths import DEFAULT_PLANNER, PLANNERS, PathBudget, plan_path
+from motion_planner_node.paths import DEFAULT_PLANNER, PLANNERS, PathBudget, PathOutcome, plan_path
 from motion_planner_node.robots.robot import Robot
 from motion_planner_node.world.scene import Scene
 
@@ -51,7 +51,8 @@ def _tried(
         )
         if result.motion is not None:
             return result.motion.length
-        if planner not in SAMPLING:
+        # More iterations help where a search has ended, not where none was begun.
+        if planner not in SAMPLING or result.outcome is not PathOutcome.NO_PATH:
             return inf
         iterations *= 2
 

@@ -24,13 +24,19 @@ MOVES = 1500
 
 
 @compiled
+def word_lengths(ground: Ground, way: Array) -> Array:
+    """Lengths [m], (n - 1,), between the attitudes (n, 3) of ``way``."""
+    pieces = np.empty((6, 3))
+    lengths = np.empty(len(way) - 1)
+    for i in range(len(lengths)):
+        lengths[i] = free_word(ground, way[i], way[i + 1], inf, pieces)[0]
+    return lengths
+
+
+@compiled
 def way_length(ground: Ground, way: Array) -> float:
     """Length [m] of the way through attitudes (n, 3); infinite where it is not free."""
-    pieces = np.empty((6, 3))
-    total = 0.0
-    for i in range(len(way) - 1):
-        total += free_word(ground, way[i], way[i + 1], inf, pieces)[0]
-    return total
+    return float(word_lengths(ground, way).sum())
 
 
 @compiled
@@ -81,16 +87,6 @@ def sparse(ground: Ground, rows: Array, most: int) -> Array:
 
 
 @compiled
-def word_lengths(ground: Ground, way: Array) -> Array:
-    """Lengths [m], (n - 1,), between the attitudes (n, 3) of ``way``."""
-    pieces = np.empty((6, 3))
-    lengths = np.empty(len(way) - 1)
-    for i in range(len(lengths)):
-        lengths[i] = free_word(ground, way[i], way[i + 1], inf, pieces)[0]
-    return lengths
-
-
-@compiled
 def displace(ground: Ground, pose: Array, draw: Array, reach: float, other: Array) -> None:
     """Set ``other`` (3,) to ``pose`` (3,), moved by up to ``reach`` [m] as ``draw`` (4,) has it."""
     size = reach * 0.5 ** (16.0 * draw[3])
@@ -100,12 +96,13 @@ def displace(ground: Ground, pose: Array, draw: Array, reach: float, other: Arra
 
 
 @compiled
-def take_if_shorter(ground: Ground, way: Array, lengths: Array, i: int, other: Array) -> None:
+def take_if_shorter(
+    ground: Ground, way: Array, lengths: Array, i: int, other: Array, pieces: Array
+) -> None:
     """Put ``other`` in the place of attitude ``i`` > 0 where that makes ``way`` shorter.
 
-    ``lengths`` are those of `word_lengths`, and are kept up to date.
+    ``lengths`` are those of `word_lengths`, and are kept up to date; ``pieces`` (6, 3) are room.
     """
-    pieces = np.empty((6, 3))
     is_last = i == len(way) - 1
     total = lengths[i - 1]
     if not is_last:
@@ -130,7 +127,7 @@ def moved(ground: Ground, way: Array, aim: Aim, draws: Array, reach: float) -> N
     if count < 2:
         return
     lengths = word_lengths(ground, way)
-    other = np.empty(3)
+    other, pieces = np.empty(3), np.empty((6, 3))
     for k in range(len(draws)):
         i = 1 + k % (count - 1)
         displace(ground, way[i], draws[k], reach, other)
@@ -146,7 +143,7 @@ def moved(ground: Ground, way: Array, aim: Aim, draws: Array, reach: float) -> N
                 other[2] += step
                 if heading_error(aim, other[0], other[1], other[2]) > 1e-9:
                     continue
-        take_if_shorter(ground, way, lengths, i, other)
+        take_if_shorter(ground, way, lengths, i, other, pieces)
 
 
 def polished(

@@ -35,7 +35,7 @@ def moved(
     """
     count = len(way)
     lengths = word_lengths(ground, way)
-    other = np.empty(3)
+    other, pieces = np.empty(3), np.empty((6, 3))
     for k in range(len(draws)):
         i = 1 + k % (count - 1)
         displace(ground, way[i], draws[k], reach, other)
@@ -47,7 +47,7 @@ def moved(
             other[0] = ring[0] + (other[0] - ring[0]) * wanted / away
             other[1] = ring[1] + (other[1] - ring[1]) * wanted / away
             other[2] = atan2(ring[1] - other[1], ring[0] - other[0]) + ring[4]
-        take_if_shorter(ground, way, lengths, i, other)
+        take_if_shorter(ground, way, lengths, i, other, pieces)
 
 
 def polished(
