@@ -27,6 +27,8 @@ from experiments.motion.worlds import WORLDS, Place
 from motion_planner_node.robots.motion import Attitude, Motion, Segment
 
 REQUESTS = 12
+#: Requests whose start or destination is so narrow that a lattice alone gets stuck there.
+NARROW = {'maze': (656, 674, 1142, 1191), 'field': (890,)}
 #: The worlds that the reference has searched.
 SEARCHED = [name for name in WORLDS if (FOLDER / f'{name}.json.gz').exists()]
 
@@ -69,6 +71,17 @@ def test_what_the_reference_solves_is_solved(
 ) -> None:
     for outcome in outcomes[world]:
         assert outcome.length is not None, f'{outcome.number}: {outcome.message}'
+
+
+@pytest.mark.parametrize('world', NARROW)
+def test_narrow_places_are_got_into(
+    places: Mapping[str, Place], references: Mapping[str, Reference], world: str
+) -> None:
+    known = [one for one in references[world].known if one.number in NARROW[world]]
+    assert len(known) == len(NARROW[world])
+    for outcome in ask(places[world], known, 1):
+        assert outcome.length is not None, f'{outcome.number}: {outcome.message}'
+        assert outcome.faults == ()
 
 
 @pytest.mark.parametrize('world', SEARCHED)

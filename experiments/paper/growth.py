@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -86,9 +87,11 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
 def fitted(figures: Mapping[int, Mapping[str, Any]], key: str) -> float:
     """The exponent e with which the median of a figure grows as the number of goals to the e.
 
-    Least squares in logarithms over the sizes that have plans.
+    Least squares in logarithms over the sizes that have plans; NaN where these are less than two.
     """
     solved = [(count, told[key]['median']) for count, told in figures.items() if key in told]
+    if len(solved) < 2:
+        return math.nan
     goals, medians = np.log(np.array(solved, float)).T
     return float(np.polyfit(goals, medians, 1)[0])
 

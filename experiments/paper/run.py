@@ -8,7 +8,8 @@ from __future__ import annotations
 import argparse
 import importlib
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from experiments.paper.part import Part
@@ -28,8 +29,13 @@ PARTS = {
 }
 
 
-def measure(names: Iterable[str], *, quick: bool, seed: int, folder: Path) -> dict[str, Part]:
-    """Measure parts in the order given; each leaves its files in a folder of its name."""
+def measure(
+    names: Iterable[str], *, quick: bool, seed: int, folder: Path, goals: Sequence[int] = ()
+) -> dict[str, Part]:
+    """Measure parts in the order given; each leaves its files in a folder of its name.
+
+    Parts that are measured at several numbers of goals are so at ``goals``, where these are given.
+    """
     parts = {}
     for name in names:
         print(f'{name}: begins', flush=True)
@@ -37,7 +43,10 @@ def measure(names: Iterable[str], *, quick: bool, seed: int, folder: Path) -> di
         module = importlib.import_module(PARTS[name])
         own = folder / name
         own.mkdir(parents=True, exist_ok=True)
-        parts[name] = module.measure(module.QUICK if quick else module.FULL, seed, own)
+        sizes = module.QUICK if quick else module.FULL
+        if goals and hasattr(sizes, 'goals'):
+            sizes = replace(sizes, goals=tuple(goals))
+        parts[name] = module.measure(sizes, seed, own)
         print(f'{name}: done after {time.perf_counter() - began:.0f} s', flush=True)
     return parts
 
@@ -49,6 +58,13 @@ def main(arguments: Iterable[str] | None = None) -> None:
         '--only', choices=PARTS, action='append', help='only this part; may be repeated'
     )
     parser.add_argument('--quick', action='store_true', help='small sizes, to try it')
+    parser.add_argument(
+        '--goals',
+        type=int,
+        action='append',
+        metavar='N',
+        help='of parts of several sizes only this number of photos; may be repeated',
+    )
     parser.add_argument('--seed', type=int, default=1, help='of all random choices (default: 1)')
     parser.add_argument(
         '--output', type=Path, default=ROOT / 'out' / 'experiments' / 'paper', help='folder'
@@ -63,7 +79,13 @@ def main(arguments: Iterable[str] | None = None) -> None:
     )
     wanted = parser.parse_args(None if arguments is None else list(arguments))
     names = [name for name in PARTS if not wanted.only or name in wanted.only]
-    parts = measure(names, quick=wanted.quick, seed=wanted.seed, folder=wanted.output)
+    parts = measure(
+        names,
+        quick=wanted.quick,
+        seed=wanted.seed,
+        folder=wanted.output,
+        goals=wanted.goals or (),
+    )
     figures = {name: part.figures for name, part in parts.items()}
     targets: list[Target] = [target for part in parts.values() for target in part.targets]
     print(f'written: {write_results(wanted.output, wanted.seed, figures, targets)}')

@@ -15,7 +15,7 @@ from motion_planner_node.paths import (
     PLANNERS,
     PathBudget,
     PathOutcome,
-    lattice_search,
+    lattice_end,
     plan_path,
     portfolio,
 )
@@ -210,7 +210,7 @@ def test_the_lattice_looks_at_the_clock_every_few_hundred_attitudes(
     result = plan_path(scene_of(*door), CAR, START, [Attitude(54, 6, 0.0)], 1, count, budget)
     looked_at = [int(word) for word in result.reason.split() if word.isdigit()]
     assert result.motion is None or result.outcome is PathOutcome.FOUND
-    assert polls * lattice_search.CHUNK >= sum(looked_at[1:])
+    assert polls * lattice_end.CHUNK >= sum(looked_at[1:])
 
 
 def test_who_cannot_leave_is_told_at_once(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from motion_planner_node.functions import Array, Interval
+from motion_planner_node.functions import Array
 from motion_planner_node.language import parse
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.robots.robot import Robot
@@ -64,10 +64,6 @@ def box_of(corner: tuple[float, ...], size: tuple[float, ...]) -> tuple[Array, A
     return low, high
 
 
-def intervals(low: Array, high: Array) -> list[Interval]:
-    return [Interval(low[:, axis], high[:, axis]) for axis in range(3)]
-
-
 @pytest.mark.parametrize('text', CONSTRAINTS)
 @settings(max_examples=60, deadline=None)
 @given(corners, sizes, st.integers(0, 2**32))
@@ -77,7 +73,7 @@ def test_bounds_hold_at_every_attitude_of_the_box(
     compiled = program(text)
     assert compiled.table is not None
     low, high = box_of(corner, size)
-    (bounds,) = compiled.bounds(*intervals(low, high))
+    (bounds,) = compiled.bounds(low, high)
     shares = np.random.default_rng(seed).random((20, 3)).round(1)
     states = np.minimum(low + shares * (high - low), high)
     for function in compiled.functions(states):
@@ -100,8 +96,8 @@ def test_bounds_are_as_tight_as_those_of_the_functions(
 ) -> None:
     compiled, opaque = program(text), program(text)
     opaque.__dict__['table'] = None
-    boxes = intervals(*box_of(corner, size))
-    (ours,), (theirs,) = compiled.bounds(*boxes), opaque.bounds(*boxes)
+    low, high = box_of(corner, size)
+    (ours,), (theirs,) = compiled.bounds(low, high), opaque.bounds(low, high)
     for one, other in ((ours.low, theirs.low), (ours.high, theirs.high)):
         if compiled.rows[0].periodic:
             # Half a turn to the left is half a turn to the right.
@@ -111,5 +107,5 @@ def test_bounds_are_as_tight_as_those_of_the_functions(
 
 def test_a_bound_that_is_exact_stays_exact() -> None:
     beyond = program('(r.x > 800)')
-    (bounds,) = beyond.bounds(*intervals(np.zeros((1, 3)), np.array([[800.0, 600.0, 0.0]])))
+    (bounds,) = beyond.bounds(np.zeros((1, 3)), np.array([[800.0, 600.0, 0.0]]))
     assert bounds.low[0] == 0.0

@@ -93,6 +93,7 @@ def test_without_constraints_the_robot_stays() -> None:
 def test_possible_cells_cover_the_destinations_closely() -> None:
     text = '(agent r)(object a)(distance(r, a) >= 50)(distance(r, a) <= 60)'
     cells = possible_cells(compile_program(parse(text), WORLD, {'r': START}), BOUNDS)
-    area = float(((cells.x_hi - cells.x_lo) * (cells.y_hi - cells.y_lo)).sum())
+    x_lo, y_lo, x_hi, y_hi = cells.T
+    area = float(((x_hi - x_lo) * (y_hi - y_lo)).sum())
     ring = math.pi * (60.0**2 - 50.0**2)
     assert ring <= area <= 1.6 * ring

@@ -12,17 +12,22 @@ from hypothesis import strategies as st
 
 from motion_planner_node.stopping import never
 from motion_planner_node.tours.chains import Groups, best_chain
-from motion_planner_node.tours.exact import best_tour
-from motion_planner_node.tours.local_search import best_place, best_reversal, short_tour
+from motion_planner_node.tours.exact import any_order, best_tour
+from motion_planner_node.tours.local_search import LocalSearch, best_place
+from motion_planner_node.tours.moves import NONE, best_move, make, neighbours, reversal, tables_of
 
 
-def groups_of(seed: int, goals: int, precedences: int) -> Groups:
-    """Random groups of one to three attitudes, with random precedences that agree with an order."""
+def groups_of(seed: int, goals: int, precedences: int, blocked: float = 0.0) -> Groups:
+    """Random groups of one to three attitudes, with random precedences that agree with an order.
+
+    There is no way between a share of the attitudes that is ``blocked``.
+    """
     rng = np.random.default_rng(seed)
     count = np.concatenate(([1], rng.integers(1, 4, goals)))
     first = np.cumsum(count) - count
     total = int(count.sum())
     costs = rng.uniform(1.0, 100.0, (total, total)).astype(np.float32)
+    costs[rng.uniform(size=costs.shape) < blocked] = inf
     before = np.zeros((goals + 1, goals + 1), np.bool_)
     before[0, 1:] = True
     hidden = 1 + rng.permutation(goals)
@@ -81,26 +86,52 @@ def test_a_group_is_inserted_where_that_is_shortest(groups: Groups) -> None:
     order = best_tour(groups, never)
     for group in order[1:]:
         rest = order[order != group]
-        length, place = best_place(groups, rest, np.array([group]))
+        length, place = best_place(groups, rest, int(group))
         tried = [np.insert(rest, k + 1, group) for k in range(len(rest))]
         allowed = [best_chain(groups, one)[0] for one in tried if respects(groups, one)]
         assert length == pytest.approx(min(allowed), rel=1e-5)
         assert respects(groups, tried[place])
 
 
+def bound_of(groups: Groups) -> np.ndarray:
+    inner = groups.before[1:, 1:]
+    return np.concatenate(([False], inner.any(axis=0) | inner.any(axis=1)))
+
+
 @given(instances)
 @settings(max_examples=40, deadline=None)
 def test_a_reversal_is_valued_with_the_attitudes_that_are_best_after_it(groups: Groups) -> None:
-    order = best_tour(groups, never)
+    tables = tables_of(groups, best_tour(groups, never))
+    order = tables.order
     for end in range(2, len(order)):
-        length, first = best_reversal(groups, order, end)
-        tried = []
         for k in range(1, end):
             turned = np.concatenate((order[:k], order[k : end + 1][::-1], order[end + 1 :]))
-            if respects(groups, turned):
-                tried.append(best_chain(groups, turned)[0])
-        assert length == pytest.approx(min(tried, default=inf), rel=1e-5)
-        assert (first < 0) is (not tried)
+            assert reversal(groups, tables, k, end) == pytest.approx(
+                best_chain(groups, turned)[0], rel=1e-5
+            )
+
+
+@given(
+    st.builds(
+        groups_of,
+        st.integers(0, 2**32),
+        st.integers(1, 30),
+        st.integers(0, 6),
+        st.sampled_from((0.0, 0.2, 0.6)),
+    )
+)
+@settings(max_examples=60, deadline=None)
+def test_a_move_is_allowed_and_makes_the_order_as_long_as_it_says(groups: Groups) -> None:
+    near, order = neighbours(groups, 6), any_order(groups)
+    for group in order[1:]:
+        tables = tables_of(groups, order)
+        move = best_move(groups, near, bound_of(groups), tables, group)
+        if move.kind == NONE:
+            continue
+        make(tables, move)
+        assert sorted(tables.order) == sorted(order)
+        assert respects(groups, tables.order)
+        assert move.length == pytest.approx(best_chain(groups, tables.order)[0], rel=1e-5)
 
 
 @given(st.integers(0, 2**32), st.integers(1, 12), st.integers(0, 12))
@@ -109,11 +140,21 @@ def test_the_local_search_keeps_precedences_and_never_gets_worse(
     seed: int, goals: int, precedences: int
 ) -> None:
     groups = groups_of(seed, goals, precedences)
-    begin = short_tour(groups, None, np.random.default_rng(seed), 0, never)
-    order = short_tour(groups, begin, np.random.default_rng(seed), 8, never)
-    again = short_tour(groups, begin, np.random.default_rng(seed), 8, never)
+    search = LocalSearch(groups, never)
+    begin = search.tour(None, 0, np.random.default_rng(seed))
+    order = search.tour(begin, 8, np.random.default_rng(seed))
+    again = search.tour(begin, 8, np.random.default_rng(seed))
     assert sorted(order) == list(range(goals + 1))
     assert respects(groups, begin)
     assert respects(groups, order)
     assert best_chain(groups, order)[0] <= best_chain(groups, begin)[0] + 1e-3
     assert (order == again).all()
+
+
+@given(st.integers(0, 2**32), st.integers(4, 10))
+@settings(max_examples=30, deadline=None)
+def test_the_local_search_is_near_the_best_of_all_orders(seed: int, goals: int) -> None:
+    groups = groups_of(seed, goals, 0)
+    found = LocalSearch(groups, never).tour(None, 64, np.random.default_rng(seed))
+    best = best_chain(groups, best_tour(groups, never))[0]
+    assert best - 1e-3 <= best_chain(groups, found)[0] <= 1.15 * best

@@ -130,3 +130,10 @@ def test_many_obstacles_close_the_same_cells_as_each_alone() -> None:
     together = scene_of(*obstacles).free_space(BODY).components_of(*points)
     closed = (np.array(alone) < 0).any(axis=0)
     assert (together[closed] < 0).all()
+
+
+def test_a_wall_is_seen_on_a_map_of_any_size() -> None:
+    wall = Polygon('wall', ((400, 0), (416, 0), (416, 3800), (400, 3800)))
+    space = scene_of(wall, bounds=Bounds(0, 0, 4000, 4000)).free_space(BODY)
+    around = hypot(300, 3700) + 16 + hypot(284, 3700)
+    assert space.distance_from(100, 100).at(700, 100) == pytest.approx(around, rel=0.05)

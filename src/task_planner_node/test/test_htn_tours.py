@@ -22,7 +22,6 @@ from task_planner_node.oracle import (
     Status,
 )
 from task_planner_node.outcomes import Options, Outcome, Result
-from task_planner_node.search.advice import MOST_TOURED
 from task_planner_node.search.guidance import leading_request
 from tests.support.sites import Point, Sites, label_of, shortest_way
 
@@ -216,17 +215,6 @@ def test_following_a_tour_takes_little_work(plan: Planned, monkeypatch: pytest.M
     assert result.plans[0].length == count - 1
     assert len(guesses) <= 2 * count
     assert world.count(Purpose.SHORTEST_TOUR) == 1
-
-
-def test_of_very_many_goals_the_last_ones_are_toured(plan: Planned) -> None:
-    count = MOST_TOURED + 3
-    world = Misled({f'p{number}': ((1.0 + number, 0.0),) for number in range(count)})
-    result = plan(DOMAIN, unordered([f'(see {label})' for label in world.points]), world)
-    assert seen(result)[:3] == ['p0', 'p1', 'p2']
-    assert seen(result)[3] == f'p{count - 1}'
-    assert [len(q.preconditions) for q in world.advised if q.purpose == Purpose.SHORTEST_TOUR] == [
-        MOST_TOURED
-    ]
 
 
 coordinates = st.tuples(st.integers(-9, 9).map(float), st.integers(-9, 9).map(float))

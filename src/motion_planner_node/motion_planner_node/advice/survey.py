@@ -86,7 +86,7 @@ class Survey:
 
     def holds_at(self, start: Attitude) -> bool:
         """Whether the constraints are met at ``start`` already."""
-        return not self.problem.program.unmet(start)
+        return self.problem.program.holds_at(start)
 
     def _reached(self, start: Attitude, here: int) -> Reach:
         ground = self.ground
@@ -102,7 +102,9 @@ class Survey:
             x, y = boxes.centres
             states = np.column_stack([x, y, np.zeros(len(x))])
         even = spread(len(states), MOST_STATES)
-        return Reach(_packed(ground, chosen), outermost, rim, states[even], proof)
+        # Mostly all is in one part: thousands of bytes that need not be kept twice.
+        cells = self._cells if len(chosen) == len(hopeful) else _packed(ground, chosen)
+        return Reach(cells, outermost, rim, states[even], proof)
 
 
 def spread(count: int, most: int) -> NDArray[np.int64]:

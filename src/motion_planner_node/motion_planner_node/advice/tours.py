@@ -95,7 +95,7 @@ def _known_ends(
     for index in members:
         end = request.ends[index] if request.ends else None
         survey = driven[index].survey
-        if end is None or end[0] != survey.problem.agent or survey.problem.program.unmet(end[1]):
+        if end is None or end[0] != survey.problem.agent or not survey.holds_at(end[1]):
             return None
         rows.append((end[1].x, end[1].y, end[1].heading))
     states = np.array(rows)

@@ -8,19 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from math import isfinite, nan, pi, remainder
-
-import numpy as np
-from numpy.typing import NDArray
+from math import isfinite, pi, remainder
 
 from motion_planner_node.codes import Code
 from motion_planner_node.errors import Diagnostic
-from motion_planner_node.functions import Interval
 from motion_planner_node.language.conditions import APART
 from motion_planner_node.language.linear import Linear, linear
 from motion_planner_node.language.printer import number_to_text, to_text
+from motion_planner_node.language.ranges import range_of
 from motion_planner_node.language.syntax import Call, Condition, Constraint, Number
-from motion_planner_node.language.tape import Tape
 
 _TOLERANCE = 1e-9
 
@@ -130,12 +126,12 @@ def contradictions(
     found: list[Diagnostic] = []
     known: dict[tuple[bool, tuple[tuple[str, float], ...]], _Known] = {}
     for item, constraint, modulo in items:
-        form = linear(constraint.left).plus(linear(constraint.right), -1.0)
+        form = _form(constraint)
         reason = _never_holds(constraint, form, modulo)
         if reason:
             found.append(_diagnostic(item, f'{to_text(item)} never holds: {reason}'))
             continue
-        bound = _bound(item, constraint, modulo)
+        bound = _bound(item, constraint, form, modulo)
         if bound is not None:
             others = known.setdefault((bound.periodic, bound.quantity), _Known()).add(bound)
             if others:
@@ -168,30 +164,26 @@ def _never_holds(constraint: Constraint, form: Linear, periodic: bool) -> str:
         if _holds(constraint.comparator, off, slack):
             return ''
         return f'the left side minus the right side is {number_to_text(number)}'
-    tape = Tape('', {})
-    left, right = tape.slot(constraint.left), tape.slot(constraint.right)
-    whole = Interval.constant(nan)
-    with np.errstate(all='ignore'):
-        values = tape.run((whole, whole, whole), Interval.constant)
-        difference = values[left] - values[right]
+    left, right = range_of(constraint.left), range_of(constraint.right)
     comparator = constraint.comparator
-    lower = (comparator in {'<=', '='} and difference.low > 0.0) or (
-        comparator == '<' and difference.low >= 0.0
+    too_high = (comparator in {'<=', '='} and left.low > right.high) or (
+        comparator == '<' and left.low >= right.high
     )
-    upper = (comparator in {'>=', '='} and difference.high < 0.0) or (
-        comparator == '>' and difference.high <= 0.0
+    too_low = (comparator in {'>=', '='} and left.high < right.low) or (
+        comparator == '>' and left.high <= right.low
     )
-    if not lower and not upper:
+    if not too_high and not too_low:
         return ''
-    for side, slot, is_low in ((constraint.left, left, lower), (constraint.right, right, upper)):
-        limit = values[slot].low if is_low else values[slot].high
-        if tape.constant(slot) is None and np.isfinite(limit):
-            return f'{to_text(side)} is at {"least" if is_low else "most"} {_rounded(limit)}'
+    sides = (constraint.left, left, too_high), (constraint.right, right, too_low)
+    for side, numbers, is_least in sides:
+        limit = float(numbers.low if is_least else numbers.high)
+        if linear(side).constant is None and isfinite(limit):
+            return f'{to_text(side)} is at {"least" if is_least else "most"} {_rounded(limit)}'
     return 'the two sides cannot come together'
 
 
-def _rounded(value: float | NDArray[np.float64]) -> str:
-    return number_to_text(round(float(value), 9) + 0.0)
+def _rounded(value: float) -> str:
+    return number_to_text(round(value, 9) + 0.0)
 
 
 def _holds(comparator: str, difference: float, slack: float) -> bool:
@@ -228,14 +220,23 @@ def _is_same_angle(one: _Bound, other: _Bound) -> bool:
     return abs(remainder(one.value - other.value, 2.0 * pi)) <= _TOLERANCE
 
 
-def _bound(item: Constraint | Condition, constraint: Constraint, modulo: bool) -> _Bound | None:
-    """The bound that a constraint is; None where nothing is known of its sides."""
+def _form(constraint: Constraint) -> Linear:
+    """The left minus the right side."""
+    return linear(constraint.left).plus(linear(constraint.right), -1.0)
+
+
+def _bound(
+    item: Constraint | Condition, constraint: Constraint, form: Linear, modulo: bool
+) -> _Bound | None:
+    """The bound that a constraint is; None where nothing is known of its sides.
+
+    ``form`` is its left minus its right side.
+    """
     periodic = modulo
     if isinstance(item, Constraint) and item.comparator == '!=':
         # Solved as abs(...) or angle_between(...): what is apart are its own sides.
         periodic = isinstance(constraint.left, Call) and constraint.left.name == 'angle_between'
-        constraint = item
-    form = linear(constraint.left).plus(linear(constraint.right), -1.0)
+        constraint, form = item, _form(item)
     if not form.terms:
         return None
     first = min(form.terms)

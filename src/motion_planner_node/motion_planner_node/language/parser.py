@@ -122,6 +122,8 @@ def _parser() -> Lark:
 
 
 def _refuse_deep_parentheses(text: str) -> None:
+    if text.count('(') <= MAXIMUM_DEPTH:
+        return
     opened = 0
     for index, character in parentheses(text):
         opened += 1 if character == '(' else -1
@@ -160,10 +162,8 @@ class _Builder:
         concept, label = children
         return Statement(str(concept), str(label), line=concept.line, column=concept.column)
 
-    def relation(self, children: list[Any]) -> Item:
+    def alone(self, children: list[Any]) -> Item:
         (node,) = children
-        if isinstance(node, Constraint):
-            return node
         if not isinstance(node, Call):
             _not_too_deep(node)
             message = 'expected a comparator (< <= > >= = !=), or a command such as setProperty'

@@ -167,9 +167,9 @@ class Preconditions:
 
 def children(node: Expression | Item) -> tuple[Expression, ...]:
     """The expressions directly below ``node``, from left to right."""
-    if isinstance(node, Call | Command):
+    if isinstance(node, (Call, Command)):
         return node.arguments
-    if isinstance(node, Operation | Constraint):
+    if isinstance(node, (Operation, Constraint)):
         return node.left, node.right
     if isinstance(node, Negation):
         return (node.operand,)

@@ -36,7 +36,8 @@ from motion_planner_node.language.syntax import (
 
 _S = TypeVar('_S', bound=Scalar)
 
-_OPERATIONS: dict[str, Callable[..., Any]] = {'+': add, '-': sub, '*': mul, '/': truediv}
+#: What the operators of an `Operation` do with numbers of any kind.
+OPERATIONS: dict[str, Callable[..., Any]] = {'+': add, '-': sub, '*': mul, '/': truediv}
 
 #: A slot, a tuple of slots that is a place, or what is the same for every attitude.
 _Argument = int | tuple[int, ...] | Field | Surroundings
@@ -59,17 +60,17 @@ class Tape:
     """Steps that compute expressions from the attitudes of the agent ``moving``.
 
     ``places`` holds the fields of everything else, by label; what is missing is NaN, an unknown
-    number. Nothing is known of the world where there are no ``surroundings``. Expressions have to be
-    free of errors (``check``).
+    number. ``surroundings`` are what functions see of the world. Expressions have to be free of
+    errors (``check``).
     """
 
     def __init__(
         self,
         moving: str,
         places: Mapping[str, Mapping[str, float]],
-        surroundings: Surroundings | None = None,
+        surroundings: Surroundings,
     ) -> None:
-        self._surroundings = surroundings or Surroundings()
+        self._surroundings = surroundings
         self._moving = moving
         self._places = places
         self._constants: list[float | None] = [None] * len(COMPONENTS)
@@ -122,7 +123,7 @@ class Tape:
         if isinstance(expression, Negation):
             return self._step(neg, neg, (self.slot(expression.operand),))
         if isinstance(expression, Operation):
-            operation = _OPERATIONS[expression.operator]
+            operation = OPERATIONS[expression.operator]
             operands = self.slot(expression.left), self.slot(expression.right)
             return self._step(operation, operation, operands)
         assert isinstance(expression, Call)

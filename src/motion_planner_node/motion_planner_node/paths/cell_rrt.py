@@ -17,7 +17,7 @@ from ompl import base, control, util
 
 from motion_planner_node.paths.cells import Cell, Decomposition
 from motion_planner_node.paths.edges import Frame, Row, Rows
-from motion_planner_node.paths.lattice_search import moves_of
+from motion_planner_node.paths.lattice_end import moves_of
 from motion_planner_node.paths.ompl_problem import ONE_AT_A_TIME, Iterations, seed_of, state_at
 from motion_planner_node.paths.query import Query
 from motion_planner_node.paths.shots import best_ending

@@ -12,13 +12,8 @@ from numpy.typing import NDArray
 from motion_planner_node.robots.body import Body
 from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.robots.motion import Pose
-from motion_planner_node.robots.steering import (
-    MOST_PIECES,
-    shortest_word,
-    word,
-    word_lengths,
-    words,
-)
+from motion_planner_node.robots.steering import MOST_PIECES, all_words, shortest_word, words
+from motion_planner_node.robots.steering import shortest_length as length_of_shortest
 from motion_planner_node.world.shapes import SHAPES_TYPE, Shapes
 from motion_planner_node.world.sweeps import word_is_free
 
@@ -35,16 +30,21 @@ class FrameType(types.StructRef):
 class Frame(structref.StructRefProxy):
     """What edges are made of and checked against; kernels get a reference to it.
 
+    It has room for the words of one edge at a time: it is one thread's.
+
     shapes: obstacles and bounds of the world.
     body: shape of the robot and the clearance that it keeps.
     steering: number of its steering function, as `robots.steering` has it.
     radius: its turning radius [m].
+    words: (w, 5, 4) pieces of all words of the edge that is looked at, lengths: (w,) theirs [m].
     """
 
     shapes: Shapes
     body: Body
     steering: int
     radius: float
+    words: NDArray[np.float64]
+    lengths: Row
 
 
 structref.define_boxing(FrameType, Frame)
@@ -55,6 +55,8 @@ _TYPE = FrameType(
         ('body', typeof(Body(np.zeros((0, 2)), 0.0, 0.0, 0.0))),
         ('steering', types.int64),
         ('radius', types.float64),
+        ('words', types.float64[:, :, ::1]),
+        ('lengths', types.float64[::1]),
     ]
 )
 
@@ -64,6 +66,8 @@ def frame_of(shapes: Shapes, body: Body, steering: int, radius: float) -> Frame:
     """The frame of these parts."""
     frame: Frame = structref.new(_TYPE)
     frame.shapes, frame.body, frame.steering, frame.radius = shapes, body, steering, radius
+    frame.words = np.zeros((words(steering), MOST_PIECES, 4))
+    frame.lengths = np.empty(words(steering))
     return frame
 
 
@@ -79,9 +83,7 @@ def shortest_is_free(frame: Frame, start: Pose, end: Pose) -> bool:
 def shortest_length(frame: Frame, start: Row, end: Row, pieces: Rows) -> float:
     """Length [m] of the shortest word, free or not; ``pieces`` (5, 4) is overwritten."""
     here, there = (start[0], start[1], start[2]), (end[0], end[1], end[2])
-    lengths = np.empty(words(frame.steering))
-    word_lengths(frame.steering, frame.radius, here, there, pieces, lengths)
-    return float(lengths.min())
+    return length_of_shortest(frame.steering, frame.radius, here, there, pieces)
 
 
 @kernel
@@ -96,15 +98,15 @@ def free_word(
     if not hypot(end[0] - start[0], end[1] - start[1]) < longest:
         return inf, -1
     here, there = (start[0], start[1], start[2]), (end[0], end[1], end[2])
-    lengths = np.empty(words(frame.steering))
-    word_lengths(frame.steering, frame.radius, here, there, pieces, lengths)
+    rows, lengths = frame.words, frame.lengths
+    all_words(frame.steering, frame.radius, here, there, longest, rows, lengths)
     for _ in range(len(lengths)):
         number = int(np.argmin(lengths))
         length = lengths[number]
         if not length < longest:
             break
-        word(frame.steering, frame.radius, number, here, there, pieces)
-        if word_is_free(frame.shapes, frame.body, here, pieces):
+        if word_is_free(frame.shapes, frame.body, here, rows[number]):
+            pieces[:] = rows[number]
             return length, number
         lengths[number] = inf
     return inf, -1

@@ -100,6 +100,42 @@ def new_lattice(most: int, longest: float, improving: int) -> Lattice:
     )
 
 
+def enlarged(lattice: Lattice, most: int) -> Lattice:
+    """The same with room for ``most`` attitudes, which are no fewer."""
+    larger = new_lattice(most, 0.0, 0)._replace(counts=lattice.counts, best=lattice.best)
+    count, waiting = attitudes(lattice), int(lattice.queue.size[0])
+    for old, new in zip(lattice[:4], larger[:4], strict=True):
+        new[:count] = old[:count]
+    larger.queue.keys[:waiting] = lattice.queue.keys[:waiting]
+    larger.queue.items[:waiting] = lattice.queue.items[:waiting]
+    larger.queue.size[0] = waiting
+    _move_cells(lattice.table, lattice.holders, larger.table, larger.holders)
+    return larger
+
+
+@kernel
+def _move_cells(
+    table: NDArray[np.int64],
+    holders: NDArray[np.int64],
+    larger: NDArray[np.int64],
+    their_holders: NDArray[np.int64],
+) -> None:
+    for slot in range(len(table)):
+        if table[slot] != -1:
+            to = _find(larger, table[slot])
+            larger[to], their_holders[to] = table[slot], holders[slot]
+
+
+@kernel
+def _find(table: NDArray[np.int64], key: int) -> int:
+    """Where a key is in the table or belongs."""
+    mask = len(table) - 1
+    slot = (key * 40503 + (key >> 7)) & mask
+    while table[slot] != -1 and table[slot] != key:
+        slot = (slot + 1) & mask
+    return slot
+
+
 @kernel
 def _slot(lattice: Lattice, grain: Grain, x: float, y: float, heading: float) -> tuple[int, int]:
     """Where in the table the cell of an attitude is or belongs, and its key."""
@@ -107,11 +143,7 @@ def _slot(lattice: Lattice, grain: Grain, x: float, y: float, heading: float) ->
     sector = int((turns - floor(turns)) * grain.headings + 0.5) % grain.headings
     column, row = int((x - grain.corner[0]) / grain.cell), int((y - grain.corner[1]) / grain.cell)
     key = ((column << 24) + row) * grain.headings + sector
-    mask = len(lattice.table) - 1
-    slot = (key * 40503 + (key >> 7)) & mask
-    while lattice.table[slot] != -1 and lattice.table[slot] != key:
-        slot = (slot + 1) & mask
-    return slot, key
+    return _find(lattice.table, key), key
 
 
 @kernel
@@ -154,15 +186,19 @@ def _rest(frame: Frame, field: Field, task: Task, pose: Row, pieces: Rows) -> fl
 
 @kernel
 def plant(
-    lattice: Lattice, frame: Frame, field: Field, grain: Grain, task: Task, roots: Rows
+    lattice: Lattice, frame: Frame, field: Field, grain: Grain, task: Task, roots: Rows, costs: Row
 ) -> None:
-    """Begin at free ``roots`` (k, 3); there has to be room for them."""
+    """Begin at free ``roots`` (k, 3), to which ways of ``costs`` (k,) have led.
+
+    There has to be room for them.
+    """
     pieces = np.zeros((MOST_PIECES, 4))
     for k in range(len(roots)):
         slot, key = _slot(lattice, grain, roots[k, 0], roots[k, 1], roots[k, 2])
         rest = _rest(frame, field, task, roots[k], pieces)
-        if rest < inf and _is_wanted(lattice, slot, 0.0):
-            _add(lattice, slot, key, roots[k], 0.0, -1 - k, grain.weight * rest)
+        if rest < inf and _is_wanted(lattice, slot, costs[k]):
+            rank = costs[k] + grain.weight * rest
+            _add(lattice, slot, key, roots[k], costs[k], -1 - k, rank)
 
 
 @kernel
@@ -230,22 +266,18 @@ def grow(
     return GOES_ON
 
 
-def path_of(lattice: Lattice, task: Task) -> Rows | None:
-    """The best way as attitudes (n, 3) in the order in which it is driven; None for none."""
-    i = int(lattice.counts[_BEST])
-    if i < 0:
-        return None
-    path = path_to(lattice, i, task.target)
-    return path if task.sign > 0.0 else path[::-1].copy()
+def last_of_best(lattice: Lattice) -> int:
+    """Number of the attitude from which the best way reaches the target; -1 for none."""
+    return int(lattice.counts[_BEST])
 
 
-def path_to(lattice: Lattice, i: int, target: Row) -> Rows:
-    """The attitudes (n, 3) from a root to number ``i``, and then ``target``."""
-    rows = [target]
+def way_to(lattice: Lattice, i: int) -> tuple[int, Rows]:
+    """Number of the root from which attitude ``i`` was reached, and the attitudes (n, 3) from it to ``i``."""
+    rows = []
     while i >= 0:
         rows.append(lattice.rows[i])
         i = int(lattice.links[i])
-    return np.array(rows[::-1])
+    return -1 - i, np.array(rows[::-1])
 
 
 def best_root(lattice: Lattice) -> int:

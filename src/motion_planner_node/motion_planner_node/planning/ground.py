@@ -22,7 +22,7 @@ from motion_planner_node.world.scene import Scene
 #: Boxes on a side of the map where a grid over all of it is needed, free or not.
 WHOLE_MAP_BOXES = 96
 #: Attitudes from which ways on are looked for between two looks at the clock.
-LOOKS = 16
+LOOKS = 32
 #: Places on the rim of an area whose nearest obstacles are named.
 RIM_PLACES = 256
 

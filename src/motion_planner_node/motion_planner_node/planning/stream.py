@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import hypot, inf, pi, remainder, tau
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,8 +51,7 @@ DETOUR = 1.3
 Way = tuple[Motion, Attitude]
 
 
-@dataclass(frozen=True, slots=True)
-class Candidate:
+class Candidate(NamedTuple):
     """A destination, ``length`` [m] away by estimate.
 
     The next action has to start there: one that may be a dead end is taken where others are far.
@@ -148,7 +148,7 @@ class Stream:
     def _to_preferred(self) -> Way | None:
         """A motion to exactly the preferred end, where that will do and can be driven to."""
         end = self._preferred
-        if end is None or self._problem.program.unmet(end):
+        if end is None or not self._problem.program.holds_at(end):
             return None
         rows = np.array([[end.x, end.y, end.heading]])
         if not (self._ground.is_free(rows)[0] and self._ground.part_of(end) == self._here):
@@ -158,7 +158,7 @@ class Stream:
 
     def _generate(self) -> Iterator[Found]:
         start = self._problem.start
-        if self._is_new(start) and not self._problem.program.unmet(start):
+        if self._is_new(start) and self._problem.program.holds_at(start):
             # Nothing is nearer than here; other destinations are for those who ask for them.
             stay = Motion(self._problem.agent, self._problem.start)
             yield self._answer((stay, self._problem.start))
@@ -214,16 +214,14 @@ class Stream:
     def _add_candidates(self, round_number: int) -> None:
         """Look for destinations, and keep those that the robot can stand in and may get to."""
         self._check_time()
-        states = np.asarray(
-            destinations(
-                self._problem.program,
-                self._problem.start,
-                self._ground.scene.world.bounds,
-                np.random.default_rng([self._seed, round_number]),
-                self._parameters.destinations,
-                self._ground.room,
-                self._ground.travel_from(self._problem.start),
-            )
+        states = destinations(
+            self._problem.program,
+            self._problem.start,
+            self._ground.scene.world.bounds,
+            np.random.default_rng([self._seed, round_number]),
+            self._parameters.destinations,
+            self._ground.room,
+            self._ground.travel_from(self._problem.start),
         )
         free = self._ground.is_free(states)
         near = self._ground.parts_of(states) == self._here
@@ -233,20 +231,22 @@ class Stream:
             self._spread = max(self._spread, float(np.ptp(states[:, :2], axis=0).max()))
         # Those of one round differ from each other.
         earlier = tuple(self._seen)
-        for index, state in enumerate(states.tolist()):
+        columns = (free.tolist(), near.tolist(), roomy.tolist(), estimates.tolist())
+        for state, is_free, is_near, is_roomy, length in zip(
+            states.tolist(), *columns, strict=True
+        ):
             attitude = Attitude(*state)
-            if not all(_differ(attitude, seen, SAME, SAME) for seen in earlier):
+            if earlier and not all(_differ(attitude, seen, SAME, SAME) for seen in earlier):
                 continue
             self._seen.append(attitude)
-            if not free[index]:
+            if not is_free:
                 trouble = self._ground.trouble(attitude)
                 self.tried.add(attitude, AttemptResult.IN_OBSTACLE, trouble)
-            elif not near[index]:
+            elif not is_near:
                 reason = 'walled off from the start'
                 self.tried.add(attitude, AttemptResult.NO_PATH, reason)
             else:
-                dead_end = not roomy[index] and attitude != self._problem.start
-                length = float(estimates[index])
+                dead_end = not is_roomy and attitude != self._problem.start
                 self._candidates.append(Candidate(len(self._seen), attitude, length, dead_end))
         self._candidates.sort(key=lambda candidate: (candidate.length, candidate.number))
 
@@ -282,10 +282,10 @@ class Stream:
                     self._is_shut_in |= result.shut_in
                 break
             end = end_of(result.motion, self._ground.robot)
-            missed = self._problem.program.unmet(end)
-            if not missed:
+            if self._problem.program.holds_at(end):
                 return result.motion, end
-            self.tried.add(end, AttemptResult.NOT_SATISFIED, missed[0])
+            reason = self._problem.program.unmet(end)[0]
+            self.tried.add(end, AttemptResult.NOT_SATISFIED, reason)
             if result.goal_index >= 0:
                 self._candidates.remove(left.pop(result.goal_index))
             else:
@@ -319,6 +319,8 @@ class Stream:
 
     def _is_new(self, attitude: Attitude) -> bool:
         """Whether ``attitude`` differs from all that was answered before, as much as asked for now."""
+        if not self._found:
+            return True
         parameters, share = self._parameters, self._share
         far = max(parameters.alternative_distance, share * self._spread)
         turned = max(parameters.alternative_heading, share * pi)

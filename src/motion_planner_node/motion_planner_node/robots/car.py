@@ -6,11 +6,13 @@ steering angle is one of -max, 0, +max.  Its shortest motions without obstacles 
 
 from __future__ import annotations
 
+from math import inf
+
 import numpy as np
 from numpy.typing import NDArray
 from ompl import base
 
-from motion_planner_node.robots.dubins import TURNS, dubins_lengths, dubins_word
+from motion_planner_node.robots.dubins import TURNS, Ends, between, dubins_word, shortest_dubins
 from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.robots.model import Model
 from motion_planner_node.robots.motion import COMPONENTS, Pose
@@ -30,14 +32,36 @@ MODEL = Model(
 @kernel
 def word(radius: float, number: int, start: Pose, end: Pose, pieces: NDArray[np.float64]) -> float:
     """Dubins word ``number`` as in `steering.word`."""
-    lengths = dubins_word(number, radius, *start, *end)
+    return _write(radius, number, between(*start, *end), inf, pieces)
+
+
+@kernel
+def all_words(
+    radius: float,
+    start: Pose,
+    end: Pose,
+    longest: float,
+    pieces: NDArray[np.float64],
+    lengths: NDArray[np.float64],
+) -> None:
+    """All Dubins words as in `steering.all_words`."""
+    ends = between(*start, *end)
+    for number in range(len(TURNS)):
+        lengths[number] = _write(radius, number, ends, longest, pieces[number])
+
+
+@kernel
+def shortest_length(radius: float, start: Pose, end: Pose) -> float:
+    """Length [m] of the shortest Dubins word."""
+    return shortest_dubins(radius, between(*start, *end))
+
+
+@kernel
+def _write(
+    radius: float, number: int, ends: Ends, longest: float, pieces: NDArray[np.float64]
+) -> float:
+    lengths = dubins_word(number, radius, ends, longest)
     for i in range(3):
         pieces[i, 0] = TURNS[number, i] / radius
         pieces[i, 1] = lengths[i]
     return lengths[0] + lengths[1] + lengths[2]
-
-
-@kernel
-def word_lengths(radius: float, start: Pose, end: Pose, lengths: NDArray[np.float64]) -> None:
-    """The lengths [m] of all words as in `steering.word_lengths`."""
-    dubins_lengths(radius, *start, *end, lengths)

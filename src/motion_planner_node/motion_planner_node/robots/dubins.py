@@ -7,13 +7,14 @@ prescribed initial and terminal positions and tangents", American Journal of Mat
 from __future__ import annotations
 
 from math import acos, atan2, cos, hypot, inf, pi, sin, sqrt
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from motion_planner_node.robots.kernel import kernel
 
-_End = tuple[float, float, float, float, float]
+#: Lengths [m] of the three pieces of a word.
+Lengths = tuple[float, float, float]
 
 #: Turns of the six words: 1 is left, 0 straight, -1 right.
 TURNS = np.array([[1, 0, 1], [-1, 0, -1], [1, 0, -1], [-1, 0, 1], [1, -1, 1], [-1, 1, -1]])
@@ -22,17 +23,44 @@ TURNS = np.array([[1, 0, 1], [-1, 0, -1], [1, 0, -1], [-1, 0, 1], [1, -1, 1], [-
 END_TOLERANCE = 5e-10
 
 
+class Ends(NamedTuple):
+    """The ends of words, and what all words between them are made of.
+
+    dx, dy: [m] from the first to the last.
+    heading0, heading1: [rad] of the first and the last, with cosines and sines.
+    sine_half: of half the difference of the headings.
+    cosine_middle, sine_middle: of the heading half-way between them.
+    """
+
+    dx: float
+    dy: float
+    heading0: float
+    heading1: float
+    cosine0: float
+    sine0: float
+    cosine1: float
+    sine1: float
+    sine_half: float
+    cosine_middle: float
+    sine_middle: float
+
+
 @kernel
 def _turned(angle: float, tolerance: float) -> float:
     """``angle`` in [0, 2 pi); what lacks less than ``tolerance`` [rad] of a full turn is none."""
-    angle = angle % (2.0 * pi)
-    return 0.0 if 2.0 * pi - angle <= tolerance else angle
+    turn = 2.0 * pi
+    # As the remainder, to the last bit, but quicker for what differences of angles are.
+    if angle < 0.0:
+        angle = angle + turn if angle >= -turn else angle % turn
+    elif angle >= turn:
+        angle = angle - turn if angle < 2.0 * turn else angle % turn
+    return 0.0 if turn - angle <= tolerance else angle
 
 
 @kernel
 def _same_turns(
     side: float, radius: float, dx: float, dy: float, heading0: float, heading1: float
-) -> tuple[float, float, float]:
+) -> Lengths:
     """Pieces [m] of the word that turns to the same ``side``, 1 or -1, at both ends.
 
     The straight piece joins circle centres that are (``dx``, ``dy``) [m] apart.  Where its heading
@@ -54,79 +82,77 @@ def _same_turns(
 
 
 @kernel
-def dubins_word(
-    word: int,
-    radius: float,
-    x0: float,
-    y0: float,
-    heading0: float,
-    x1: float,
-    y1: float,
-    heading1: float,
-) -> tuple[float, float, float]:
-    """Lengths [m] of the three pieces of word number ``word``, infinite when it does not exist.
+def between(x0: float, y0: float, heading0: float, x1: float, y1: float, heading1: float) -> Ends:
+    """The two ends of a word."""
+    half, middle = 0.5 * (heading1 - heading0), 0.5 * (heading1 + heading0)
+    return Ends(
+        x1 - x0,
+        y1 - y0,
+        heading0,
+        heading1,
+        cos(heading0),
+        sin(heading0),
+        cos(heading1),
+        sin(heading1),
+        sin(half),
+        cos(middle),
+        sin(middle),
+    )
 
-    A piece follows the circle of turning radius ``radius`` [m] or a common tangent of two.
+
+@kernel
+def dubins_word(word: int, radius: float, ends: Ends, longest: float) -> Lengths:
+    """Lengths [m] of the three pieces of word number ``word``.
+
+    Infinite when it does not exist, or when its middle piece alone is ``longest`` [m] or more: then
+    the others are not worked out.  A piece follows the circle of turning radius ``radius`` [m] or a
+    common tangent of two.
     """
-    start = (x0, y0, heading0, cos(heading0), sin(heading0))
-    end = (x1, y1, heading1, cos(heading1), sin(heading1))
-    return _pieces(word, radius, start, end)
-
-
-@kernel
-def dubins_lengths(
-    radius: float,
-    x0: float,
-    y0: float,
-    heading0: float,
-    x1: float,
-    y1: float,
-    heading1: float,
-    lengths: NDArray[np.float64],
-) -> None:
-    """Fill ``lengths`` (6,) [m] with those of all words, infinite for those that do not exist."""
-    start = (x0, y0, heading0, cos(heading0), sin(heading0))
-    end = (x1, y1, heading1, cos(heading1), sin(heading1))
-    for word in range(len(TURNS)):
-        first, middle, last = _pieces(word, radius, start, end)
-        lengths[word] = first + middle + last
-
-
-@kernel
-def _pieces(word: int, radius: float, start: _End, end: _End) -> tuple[float, float, float]:
-    """As `dubins_word`, between ends of x, y, heading, and its cosine and sine."""
-    x0, y0, heading0, cosine0, sine0 = start
-    x1, y1, heading1, cosine1, sine1 = end
+    none = (inf, inf, inf)
     first, last = TURNS[word, 0], TURNS[word, 2]
     if word < 2:
-        half, middle = 0.5 * (heading1 - heading0), 0.5 * (heading1 + heading0)
-        chord = 2.0 * radius * sin(half) * first
-        dx, dy = (x1 - x0) - chord * cos(middle), (y1 - y0) - chord * sin(middle)
-        return _same_turns(first, radius, dx, dy, heading0, heading1)
-    dx = (x1 - x0) - radius * (last * sine1 - first * sine0)
-    dy = (y1 - y0) + radius * (last * cosine1 - first * cosine0)
+        chord = 2.0 * radius * ends.sine_half * first
+        dx, dy = ends.dx - chord * ends.cosine_middle, ends.dy - chord * ends.sine_middle
+        if hypot(dx, dy) >= longest:
+            return none
+        return _same_turns(first, radius, dx, dy, ends.heading0, ends.heading1)
+    dx = ends.dx - radius * (last * ends.sine1 - first * ends.sine0)
+    dy = ends.dy + radius * (last * ends.cosine1 - first * ends.cosine0)
     distance = hypot(dx, dy)
-    toward = atan2(dy, dx) if distance > 0.0 else heading0
     if word < 4:
         square = distance * distance - 4.0 * radius * radius
         if square < 0.0:
-            return inf, inf, inf
+            return none
         straight = sqrt(square)
+        if straight >= longest:
+            return none
+        toward = atan2(dy, dx) if distance > 0.0 else ends.heading0
         heading = toward + first * atan2(2.0 * radius, straight)
         exact = END_TOLERANCE / (straight + 2.0 * radius)
         return (
-            radius * _turned(first * (heading - heading0), exact),
+            radius * _turned(first * (heading - ends.heading0), exact),
             straight,
-            radius * _turned(last * (heading1 - heading), exact),
+            radius * _turned(last * (ends.heading1 - heading), exact),
         )
-    if distance > 4.0 * radius:
-        return inf, inf, inf
+    if distance > 4.0 * radius or pi * radius >= longest:
+        return none
     base = acos(distance / (4.0 * radius))
+    toward = atan2(dy, dx) if distance > 0.0 else ends.heading0
     tangent0 = toward + first * (base + 0.5 * pi)
     tangent1 = toward - first * (base + 0.5 * pi)
     exact = END_TOLERANCE / (4.0 * radius)
     return (
-        radius * _turned(first * (tangent0 - heading0), exact),
+        radius * _turned(first * (tangent0 - ends.heading0), exact),
         radius * (pi + 2.0 * base),
-        radius * _turned(last * (heading1 - tangent1), exact),
+        radius * _turned(last * (ends.heading1 - tangent1), exact),
     )
+
+
+@kernel
+def shortest_dubins(radius: float, ends: Ends) -> float:
+    """Length [m] of the shortest word."""
+    shortest = inf
+    for word in range(len(TURNS)):
+        first, middle, last = dubins_word(word, radius, ends, shortest)
+        shortest = min(shortest, first + middle + last)
+    return shortest

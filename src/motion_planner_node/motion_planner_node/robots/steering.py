@@ -50,23 +50,25 @@ def word(
 
 
 @kernel
-def word_lengths(
+def all_words(
     steering: int,
     radius: float,
     start: Pose,
     end: Pose,
+    longest: float,
     pieces: NDArray[np.float64],
     lengths: NDArray[np.float64],
 ) -> None:
-    """Fill ``lengths`` (w,) [m] with those of all words, as `word` has them.
+    """Write all words to ``pieces`` (w, 5, 4) and their lengths [m] to ``lengths`` (w,), as `word`.
 
-    ``pieces`` (5, 4) is overwritten.  Much quicker than one word after the other for the car.
+    Of those that are ``longest`` [m] or more some may get infinite lengths.  ``pieces`` are zeros
+    or what was written there for the same model.
     """
     if steering == _CAR:
-        car.word_lengths(radius, start, end, lengths)
+        car.all_words(radius, start, end, longest, pieces, lengths)
         return
     for number in range(len(lengths)):
-        lengths[number] = word(steering, radius, number, start, end, pieces)
+        lengths[number] = word(steering, radius, number, start, end, pieces[number])
 
 
 @kernel
@@ -77,12 +79,30 @@ def shortest_word(
 
     Returns its length [m] and its number; infinite and -1 when there is none.
     """
-    lengths = np.empty(words(steering))
-    word_lengths(steering, radius, start, end, pieces, lengths)
-    chosen = int(np.argmin(lengths))
-    if not lengths[chosen] < inf:
-        return inf, -1
-    return word(steering, radius, chosen, start, end, pieces), chosen
+    shortest, chosen = inf, -1
+    for number in range(words(steering)):
+        length = word(steering, radius, number, start, end, pieces)
+        if length < shortest:
+            shortest, chosen = length, number
+    if chosen >= 0:
+        word(steering, radius, chosen, start, end, pieces)
+    return shortest, chosen
+
+
+@kernel
+def shortest_length(
+    steering: int, radius: float, start: Pose, end: Pose, pieces: NDArray[np.float64]
+) -> float:
+    """Length [m] of the shortest word; ``pieces`` (5, 4) is overwritten.
+
+    Much quicker than one word after the other for the car.
+    """
+    if steering == _CAR:
+        return car.shortest_length(radius, start, end)
+    shortest = inf
+    for number in range(words(steering)):
+        shortest = min(shortest, word(steering, radius, number, start, end, pieces))
+    return shortest
 
 
 @kernel
@@ -90,11 +110,9 @@ def shortest_lengths(
     steering: int, radius: float, starts: NDArray[np.float64], ends: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Lengths [m], shape (n,), of the shortest words from ``starts`` to ``ends``, both (n, 3)."""
-    shortest, lengths = np.empty(len(starts)), np.empty(words(steering))
-    pieces = np.zeros((MOST_PIECES, 4))
+    shortest, pieces = np.empty(len(starts)), np.zeros((MOST_PIECES, 4))
     for i in range(len(starts)):
         start = (starts[i, 0], starts[i, 1], starts[i, 2])
         end = (ends[i, 0], ends[i, 1], ends[i, 2])
-        word_lengths(steering, radius, start, end, pieces, lengths)
-        shortest[i] = lengths.min()
+        shortest[i] = shortest_length(steering, radius, start, end, pieces)
     return shortest

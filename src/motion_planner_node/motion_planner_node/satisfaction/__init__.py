@@ -1,7 +1,7 @@
 """Satisfying geometric constraints: penalty descent from many starts, and proofs that none can."""
 
 from motion_planner_node.satisfaction.branch_and_prune import branch_and_prune
-from motion_planner_node.satisfaction.cells import Cells, possible_cells
+from motion_planner_node.satisfaction.cells import possible_cells
 from motion_planner_node.satisfaction.compiling import compile_program
 from motion_planner_node.satisfaction.conflicts import separation, together, unsolved
 from motion_planner_node.satisfaction.descent import Descent, DescentOptions, descend
@@ -17,7 +17,6 @@ from motion_planner_node.satisfaction.row import wrap
 
 __all__ = [
     'TOLERANCE',
-    'Cells',
     'Descent',
     'DescentOptions',
     'Program',

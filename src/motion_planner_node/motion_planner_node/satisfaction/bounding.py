@@ -9,9 +9,10 @@ from __future__ import annotations
 from math import atan2, ceil, cos, floor, hypot, inf, isnan, pi, sin
 
 import numpy as np
+from numpy.typing import NDArray
 
 from motion_planner_node.functions import Array
-from motion_planner_node.robots.kernel import kernel
+from motion_planner_node.robots.kernel import kernel, part
 from motion_planner_node.satisfaction.recording import (
     ABSOLUTE,
     ADD,
@@ -36,6 +37,10 @@ _Range = tuple[float, float]
 _RELATIVE = 4.0 * float(np.finfo(np.float64).eps)
 #: More than a product loses when it underflows.
 _SMALLEST = float(np.finfo(np.float64).tiny)
+#: Columns of the limits (m, 3) of a program: the least and the greatest that a function may be, and
+#: whether, by 1, it is an angle modulo 2 pi.
+LEAST, GREATEST, PERIODIC = range(3)
+
 #: Beyond this [rad] nothing is said of the sine and cosine of an angle.
 _LARGEST_ANGLE = 1e9
 
@@ -174,39 +179,89 @@ def _wrapped(a: _Range) -> _Range:
 
 
 @kernel
-def bounds_at(table: Table, periodic: Array, low: Array, high: Array) -> tuple[Array, Array]:
+def slot_ranges(table: Table) -> tuple[Array, Array]:
+    """Least and greatest numbers (s,) of all slots, with those of the constants filled in."""
+    count = 3 + len(table.constants) + len(table.operations)
+    least, most = np.empty(count), np.empty(count)
+    for index in range(len(table.constants)):
+        constant = table.constants[index]
+        least[3 + index] = -inf if isnan(constant) else constant
+        most[3 + index] = inf if isnan(constant) else constant
+    return least, most
+
+
+@part
+def _fill(table: Table, step: int, least: Array, most: Array) -> None:
+    """Carry out operation number ``step``; what it needs has been filled in before."""
+    code, i, j = table.operations[step, 0], table.operations[step, 1], table.operations[step, 2]
+    a = (least[i], most[i])
+    if code >= RANGE:
+        x, y, heading = (least[0], most[0]), (least[1], most[1]), (least[2], most[2])
+        found = _of_place(code, x, y, heading, a, (least[j], most[j]))
+    elif code in (ADD, SUBTRACT, MULTIPLY, DIVIDE, HYPOT, ARCTAN2, MINIMUM):
+        found = _of_two(code, a, (least[j], most[j]))
+    else:
+        found = _of_one(code, a)
+    target = 3 + len(table.constants) + step
+    least[target], most[target] = found
+
+
+@part
+def _bounds_of(table: Table, row: int, is_periodic: bool, least: Array, most: Array) -> _Range:
+    """Bounds of function number ``row``, when its slot has been filled in."""
+    slot, factor = table.outputs[row], table.linear[row, 0]
+    number, error = table.linear[row, 1], table.linear[row, 2]
+    value = (least[slot], most[slot]) if factor > 0.0 else (-most[slot], -least[slot])
+    value = _plus(value, (number - error, number + error))
+    return _wrapped(value) if is_periodic else value
+
+
+@kernel
+def bounds_at(table: Table, limits: Array, low: Array, high: Array) -> tuple[Array, Array]:
     """Bounds, both (m, n), of the m functions of ``table`` over boxes from ``low`` to ``high`` (n, 3).
 
-    ``periodic`` (m,) says, by 1, which functions are angles modulo 2 pi: they are turned so that
-    their bounds lie round zero.
+    Angles are turned so that their bounds lie round zero; ``limits`` (m, 3) tell which are angles.
     """
-    operations, constants = table.operations, table.constants
-    first = 3 + len(constants)
-    least, most = np.empty(first + len(operations)), np.empty(first + len(operations))
-    for index in range(len(constants)):
-        known = not isnan(constants[index])
-        least[3 + index] = constants[index] if known else -inf
-        most[3 + index] = constants[index] if known else inf
+    least, most = slot_ranges(table)
     count = len(table.outputs)
     lows, highs = np.empty((count, len(low))), np.empty((count, len(low)))
     for box in range(len(low)):
         for axis in range(3):
             least[axis], most[axis] = low[box, axis], high[box, axis]
-        x, y, heading = (least[0], most[0]), (least[1], most[1]), (least[2], most[2])
-        for step in range(len(operations)):
-            code, i, j = operations[step]
-            a = (least[i], most[i])
-            if code >= RANGE:
-                found = _of_place(code, x, y, heading, a, (least[j], most[j]))
-            elif code in (ADD, SUBTRACT, MULTIPLY, DIVIDE, HYPOT, ARCTAN2, MINIMUM):
-                found = _of_two(code, a, (least[j], most[j]))
-            else:
-                found = _of_one(code, a)
-            least[first + step], most[first + step] = found
+        for step in range(len(table.operations)):
+            _fill(table, step, least, most)
         for row in range(count):
-            slot, (factor, number, error) = table.outputs[row], table.linear[row]
-            value = (least[slot], most[slot])
-            value = value if factor > 0.0 else (-value[1], -value[0])
-            value = _plus(value, (number - error, number + error))
-            lows[row, box], highs[row, box] = _wrapped(value) if periodic[row] else value
+            found = _bounds_of(table, row, limits[row, PERIODIC] != 0.0, least, most)
+            lows[row, box], highs[row, box] = found
     return lows, highs
+
+
+@part
+def is_possible(table: Table, limits: Array, least: Array, most: Array) -> bool:
+    """Whether a box may hold an attitude within ``limits`` (m, 3).
+
+    Its ends are the first three of ``least`` and ``most``, which are of `slot_ranges`.
+    """
+    first = 3 + len(table.constants)
+    step, result = 0, True
+    for row in range(len(table.outputs)):
+        # Operations are in the order of the rows that need them first.
+        while result and step <= table.outputs[row] - first:
+            _fill(table, step, least, most)
+            step += 1
+        if result:
+            low, high = _bounds_of(table, row, limits[row, PERIODIC] != 0.0, least, most)
+            result = low <= limits[row, GREATEST] and high >= limits[row, LEAST]
+    return result
+
+
+@kernel
+def possible_at(table: Table, limits: Array, low: Array, high: Array) -> NDArray[np.bool_]:
+    """Which boxes from ``low`` to ``high`` (n, 3) may hold an attitude within ``limits`` (m, 3)."""
+    least, most = slot_ranges(table)
+    result = np.empty(len(low), np.bool_)
+    for box in range(len(low)):
+        for axis in range(3):
+            least[axis], most[axis] = low[box, axis], high[box, axis]
+        result[box] = is_possible(table, limits, least, most)
+    return result

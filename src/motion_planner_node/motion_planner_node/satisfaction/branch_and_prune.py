@@ -14,9 +14,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from motion_planner_node.functions import Array, Interval
+from motion_planner_node.functions import Array
+from motion_planner_node.satisfaction.recording import Table
 from motion_planner_node.satisfaction.room import ANYWHERE, Room
-from motion_planner_node.satisfaction.row import Row
 from motion_planner_node.world.clearance import clearances
 from motion_planner_node.world.model import Bounds
 
@@ -27,18 +27,24 @@ BATCH = 1024
 
 
 class Bounded(Protocol):
-    """What is needed of a program: its rows and bounds of their functions over boxes."""
+    """What is needed of a program: its functions and what they may be."""
 
-    rows: tuple[Row, ...]
-    tolerance: float
+    @property
+    def table(self) -> Table | None:
+        """The functions f_i as primitive operations, if they are."""
+        ...
 
     @property
     def uses_heading(self) -> bool:
         """Whether it is worth while to halve ranges of headings."""
         ...
 
-    def bounds(self, x: Interval, y: Interval, heading: Interval, /) -> list[Interval]:
-        """Bounds of the functions f_i over boxes of attitudes."""
+    def limits(self, rows: Sequence[int] | None, /) -> Array:
+        """What the functions may be where the constraints number ``rows`` are met, (m, 3)."""
+        ...
+
+    def possible(self, low: Array, high: Array, limits: Array, /) -> NDArray[np.bool_]:
+        """Which boxes (n, 3) of attitudes may hold one within ``limits``."""
         ...
 
 
@@ -63,24 +69,11 @@ def possible(
     program: Bounded, low: Array, high: Array, rows: Sequence[int] | None = None
 ) -> NDArray[np.bool_]:
     """Which boxes (n, 3) may hold an attitude that meets ``rows``, all by default."""
-    batches = range(0, len(low), BATCH)
-    parts = [_possible(program, low[i : i + BATCH], high[i : i + BATCH], rows) for i in batches]
-    return np.concatenate([np.ones(0, dtype=np.bool_), *parts])
-
-
-def _possible(
-    program: Bounded, low: Array, high: Array, rows: Sequence[int] | None
-) -> NDArray[np.bool_]:
-    result = np.ones(len(low), dtype=np.bool_)
-    functions = program.bounds(*(Interval(low[:, i], high[:, i]) for i in range(3)))
-    for index in range(len(program.rows)) if rows is None else rows:
-        row, function = program.rows[index], functions[index]
-        if row.is_strict:
-            result &= function.low < 0.0
-        else:
-            result &= function.low <= program.tolerance
-        if row.is_equality:
-            result &= function.high >= -program.tolerance
+    limits = program.limits(rows)
+    result = np.empty(len(low), dtype=np.bool_)
+    for first in range(0, len(low), BATCH):
+        batch = slice(first, first + BATCH)
+        result[batch] = program.possible(low[batch], high[batch], limits)
     return result
 
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from motion_planner_node.functions import Interval
 from motion_planner_node.language.syntax import Call, Label, Number
 from motion_planner_node.satisfaction.branch_and_prune import Remainder, branch_and_prune
 from motion_planner_node.satisfaction.descent import descend
@@ -129,8 +128,7 @@ def _least_miss(program: Program, bounds: Bounds, row: int, others: Sequence[int
     left = branch_and_prune(program, bounds, others, budget=_BUDGET)
     if left.is_empty:
         return 0.0
-    boxes = (Interval(left.low[:, axis], left.high[:, axis]) for axis in range(3))
-    function = program.bounds(*boxes)[row]
+    function = program.bounds(left.low, left.high)[row]
     missed = np.maximum(function.low, 0.0)
     if program.rows[row].is_equality:
         missed = np.maximum(missed, -function.high)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import hypot, inf, sin
+from functools import lru_cache
+from math import hypot, inf, pi, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -67,12 +68,20 @@ def restarts(
 
 def _spread_out(program: Program, bounds: Bounds, rng: np.random.Generator, count: int) -> Array:
     """``count`` random attitudes (count, 3), spread evenly over where descents can succeed."""
-    cells = program.places(bounds)
-    chosen = ((np.arange(count) + rng.random()) * len(cells) / count).astype(np.int64)
-    along = rng.random((count, 3))
-    x = cells.x_lo[chosen] + along[:, 0] * (cells.x_hi - cells.x_lo)[chosen]
-    y = cells.y_lo[chosen] + along[:, 1] * (cells.y_hi - cells.y_lo)[chosen]
-    return np.column_stack((x, y, np.pi * (1.0 - 2.0 * along[:, 2])))
+    return _placed(program.places(bounds), rng.random(), rng.random((count, 3)))
+
+
+@kernel
+def _placed(cells: Array, first: float, shares: Array) -> Array:
+    """An attitude (n, 3) for each row of ``shares`` (n, 3), evenly over ``cells`` from one on."""
+    result = np.empty(shares.shape)
+    for index in range(len(shares)):
+        cell = int((index + first) * len(cells) / len(shares))
+        for axis in range(2):
+            low, high = cells[cell, axis], cells[cell, 2 + axis]
+            result[index, axis] = low + shares[index, axis] * (high - low)
+        result[index, 2] = pi * (1.0 - 2.0 * shares[index, 2])
+    return result
 
 
 def destinations(
@@ -105,7 +114,9 @@ def destinations(
     chosen = farthest_points(found, count)
     if travel is not None and len(found):
         nearest = np.argsort(travel.lengths(found), kind='stable')[:count]
-        chosen = np.concatenate((chosen, np.setdiff1d(nearest, chosen)))
+        is_added = np.zeros(len(found), np.bool_)
+        is_added[nearest], is_added[chosen] = True, False
+        chosen = np.concatenate((chosen, np.flatnonzero(is_added)))
     return found[chosen]
 
 
@@ -119,10 +130,16 @@ def _near(
 ) -> Array:
     """Attitudes (n, 3) round ``start`` (3,), and others where descents can succeed near to it."""
     around = rng.normal(size=(count, 3))
-    around[:, :2] *= travel.reach * np.resize(_AROUND, count)[:, None]
+    around[:, :2] *= travel.reach * _reaches(count)
     places = _spread_out(program, bounds, rng, _PLACES * count)
     nearest = np.argsort(travel.ways(places), kind='stable')[: 2 * count]
     return np.concatenate((start + around, places[nearest]))
+
+
+@lru_cache(maxsize=16)
+def _reaches(count: int) -> Array:
+    """Multiples (count, 1) of the reach, in turn."""
+    return np.resize(_AROUND, (count, 1))
 
 
 def _sorted_out(program: Program, descent: Descent, room: Room) -> Array:
@@ -156,10 +173,12 @@ def farthest_points(states: Array, count: int) -> NDArray[np.int64]:
         size += 1
         farthest, most = 0, -inf
         for index in range(total):
-            away = hypot(states[index, 0] - states[last, 0], states[index, 1] - states[last, 1])
-            turned = abs(sin(0.5 * (states[index, 2] - states[last, 2])))
-            apart = away / spread + _HEADING_WEIGHT * turned
-            nearest[index] = min(nearest[index], apart)
+            east, north = states[index, 0] - states[last, 0], states[index, 1] - states[last, 1]
+            # Seldom: most are too far away on one axis to be nearer than before.
+            if max(abs(east), abs(north)) / spread < nearest[index]:
+                turned = abs(sin(0.5 * (states[index, 2] - states[last, 2])))
+                apart = hypot(east, north) / spread + _HEADING_WEIGHT * turned
+                nearest[index] = min(nearest[index], apart)
             if nearest[index] > most:
                 farthest, most = index, nearest[index]
         if most <= _SAME:

@@ -2,34 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from copy import copy
 from functools import cached_property
-from math import isfinite, isnan
+from math import inf
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from motion_planner_node.codes import Code
-from motion_planner_node.errors import Diagnostic, MotionPlannerError
 from motion_planner_node.functions import COMPONENTS, Array, Dual, Interval, surroundings_of
 from motion_planner_node.language.check import compared
 from motion_planner_node.language.printer import to_text
 from motion_planner_node.language.syntax import (
-    Command,
     Condition,
     Constraint,
     Preconditions,
-    Property,
 )
 from motion_planner_node.language.tape import Tape
 from motion_planner_node.requests import Residual
-from motion_planner_node.robots.arcs import wrap_angle
 from motion_planner_node.robots.motion import Attitude, GeometricState
-from motion_planner_node.satisfaction.bounding import bounds_at
-from motion_planner_node.satisfaction.cells import Cells, possible_cells, possible_positions
+from motion_planner_node.satisfaction.bounding import bounds_at, possible_at
+from motion_planner_node.satisfaction.cells import possible_cells, possible_positions
+from motion_planner_node.satisfaction.commands import applied, components_of
 from motion_planner_node.satisfaction.conflicts import contradiction
 from motion_planner_node.satisfaction.evaluation import violations_at
 from motion_planner_node.satisfaction.recording import Table, record
@@ -41,11 +37,15 @@ from motion_planner_node.world.model import Bounds, World
 #: coordinates of ordinary size. Strict comparators have none.
 TOLERANCE = 1e-9
 
+#: Violation up to which a constraint counts as met where a motion ends, by rounding on the way.
+ENOUGH = 1e-6
+
 #: Violation that restarts allow for: as large as any tolerance, so that they suit all starts.
 _LOOSE = 1e-6
 #: Boxes of positions that restarts are spread over.
 _MOST_PLACES = 256
 
+_BELOW_ZERO = -5e-324
 _EPSILON = float(np.finfo(np.float64).eps)
 
 
@@ -81,7 +81,7 @@ class Program:
         self._world = world
         self._fields = {label: world.objects[label].fields for label in self.objects}
         self.start, self.tolerance = self._begun(start)
-        places = self._fields | _components(self.start, self.agents)
+        places = self._fields | components_of(self.start, self.agents)
         self._tape = Tape(agent, places, surroundings_of(world))
         self.rows = tuple(self._row(item) for item in preconditions.constraints)
         self.constraints = tuple(row.text for row in self.rows)
@@ -89,7 +89,7 @@ class Program:
     def _begun(self, start: GeometricState) -> tuple[dict[str, Attitude], float]:
         """The state after the commands, and the tolerance with which that can be computed."""
         state = self.apply_commands(start)
-        places = self._fields | _components(state, self.agents)
+        places = self._fields | components_of(state, self.agents)
         largest = max(
             (abs(value) for fields in places.values() for value in fields.values()), default=0.0
         )
@@ -104,10 +104,14 @@ class Program:
         is_same = all(start.get(label) == self.start[label] for label in others)
         if self.assigns or self.agent not in start or not is_same:
             return None
+        return self._starting_with(*self._begun(start))
+
+    def _starting_with(self, start: Mapping[str, Attitude], tolerance: float) -> Program:
         _ = self.table, self._places  # which both programs share
         result = copy(self)
-        vars(result).pop('conditions', None)
-        result.start, result.tolerance = self._begun(start)
+        result.start, result.tolerance = dict(start), tolerance
+        for name in ('conditions', '_limits', '_allowed'):
+            vars(result).pop(name, None)
         return result
 
     @contextmanager
@@ -120,30 +124,9 @@ class Program:
             self._should_stop = before
 
     def apply_commands(self, state: GeometricState) -> GeometricState:
-        """The state after the commands, in their order; what they do not set stays as it is.
-
-        Raises MotionPlannerError: NO_START when an agent is set in part and was nowhere before, or
-        a component is read that is not set; INVALID_PRECONDITIONS when a value is not finite.
-        """
-        components = _components(state, tuple(state))
-        for command in self._preconditions.commands:
-            target, expression = command.arguments
-            assert isinstance(target, Property)
-            tape = Tape('', self._fields | components, surroundings_of(self._world))
-            value = tape.constant(tape.slot(expression))
-            if value is None or not isfinite(value):
-                raise _not_assignable(command, value)
-            if target.name == 'heading':
-                value = wrap_angle(value)
-            components.setdefault(target.owner, {})[target.name] = value
-        for label, known in components.items():
-            missing = [name for name in COMPONENTS if name not in known]
-            if missing:
-                raise MotionPlannerError(
-                    Code.NO_START,
-                    f'the start has no attitude of {label} and no command sets its {missing[0]}',
-                )
-        return {label: Attitude(**known) for label, known in components.items()}
+        """The state after the commands, as `commands.applied` has it."""
+        commands = self._preconditions.commands
+        return applied(commands, self._fields, surroundings_of(self._world), state)
 
     def functions(
         self, states: Array, *, derivatives: Literal['none', 'truncated', 'full'] = 'none'
@@ -206,42 +189,67 @@ class Program:
         slopes = [function.gradient for function in self.functions(states, derivatives='full')]
         return any(slope is not None and bool(np.any(slope[2] != 0.0)) for slope in slopes)
 
-    def bounds(self, x: Interval, y: Interval, heading: Interval) -> list[Interval]:
-        """Bounds of the functions f_i over boxes of attitudes, headings within [-pi, pi]."""
+    @cached_property
+    def _limits(self) -> Array:
+        rows = [
+            (
+                -self.tolerance if row.is_equality else -inf,
+                _BELOW_ZERO if row.is_strict else self.tolerance,
+                row.periodic,
+            )
+            for row in self.rows
+        ]
+        return np.array(rows, dtype=np.float64).reshape(-1, 3)
+
+    def limits(self, rows: Sequence[int] | None = None) -> Array:
+        """What the functions f_i may be where the constraints number ``rows`` are met, by default all.
+
+        (m, 3): the least and the greatest number, and 1 for angles modulo 2 pi.
+        """
+        if rows is None:
+            return self._limits
+        result = self._limits.copy()
+        result[[index for index in range(len(result)) if index not in rows], :2] = -inf, inf
+        return result
+
+    def bounds(self, low: Array, high: Array) -> list[Interval]:
+        """Bounds of the functions f_i over boxes (n, 3) of attitudes, headings within [-pi, pi]."""
         go_on(self._should_stop)
         if self.table is not None:
-            low, high = (
-                np.column_stack([getattr(component, end) for component in (x, y, heading)])
-                for end in ('low', 'high')
-            )
-            periodic = np.array([row.periodic for row in self.rows], np.float64)
-            return [
-                Interval(*ends)
-                for ends in zip(*bounds_at(self.table, periodic, low, high), strict=True)
-            ]
+            ends = bounds_at(self.table, self._limits, low, high)
+            return [Interval(*pair) for pair in zip(*ends, strict=True)]
         with np.errstate(all='ignore'):
-            values = self._tape.run((x, y, heading), Interval.constant)
+            state = [Interval(low[:, axis], high[:, axis]) for axis in range(len(COMPONENTS))]
+            values = self._tape.run(state, Interval.constant)
             return [row.bounds(values[row.left], values[row.right]) for row in self.rows]
+
+    def possible(self, low: Array, high: Array, limits: Array) -> NDArray[np.bool_]:
+        """Which boxes (n, 3) of attitudes may hold one whose functions f_i are within ``limits``."""
+        if self.table is not None:
+            go_on(self._should_stop)
+            return possible_at(self.table, limits, low, high)
+        result = np.ones(len(low), dtype=np.bool_)
+        for function, (least, greatest, _) in zip(self.bounds(low, high), limits, strict=True):
+            result &= (function.low <= greatest) & (function.high >= least)
+        return result
 
     def position_cells(
         self, x_lo: Array, x_hi: Array, y_lo: Array, y_hi: Array
     ) -> NDArray[np.bool_]:
         """Which boxes of positions (n,) may hold a destination: False where provably none does."""
-        return possible_positions(self, Cells(x_lo, x_hi, y_lo, y_hi))
+        return possible_positions(self, x_lo, y_lo, x_hi, y_hi)
 
     @cached_property
-    def _places(self) -> dict[Bounds, Cells]:
+    def _places(self) -> dict[Bounds, Array]:
         return {}
 
-    def places(self, bounds: Bounds) -> Cells:
-        """Equal boxes within ``bounds`` that hold nearly all destinations, the same for all starts.
+    def places(self, bounds: Bounds) -> Array:
+        """Equal boxes (n, 4) in ``bounds`` that hold nearly all destinations, the same for all starts.
 
-        Where nothing may hold one, the boxes cover all of it.
+        Where nothing may hold one, the boxes cover all of it. See `possible_cells`.
         """
         if bounds not in self._places:
-            _ = self.table  # which the copy shares
-            loose = copy(self)
-            loose.tolerance = _LOOSE
+            loose = self._starting_with(self.start, _LOOSE)
             cells = possible_cells(loose, bounds, most=_MOST_PLACES)
             self._places[bounds] = cells if len(cells) else possible_cells(loose, bounds, [])
         return self._places[bounds]
@@ -253,7 +261,7 @@ class Program:
     def only(self, rows: Sequence[int]) -> Program:
         """The program with only the constraints number ``rows``."""
         part = copy(self)
-        for name in ('table', 'conditions', 'uses_heading', '_places'):
+        for name in ('table', 'conditions', 'uses_heading', '_limits', '_allowed', '_places'):
             vars(part).pop(name, None)
         part.rows = tuple(self.rows[index] for index in rows)
         part.constraints = tuple(row.text for row in part.rows)
@@ -284,28 +292,35 @@ class Program:
 
     def meets(self, violations: Array) -> NDArray[np.bool_]:
         """Which of the rows of ``violations`` (n, m) mean that all constraints are met."""
-        allowed = np.array([0.0 if row.is_strict else self.tolerance for row in self.rows])
-        return np.asarray((violations <= allowed).all(axis=1))
+        return np.asarray((violations <= self._allowed).all(axis=1))
 
-    def residuals(self, attitude: Attitude, tolerance: float = 1e-6) -> tuple[Residual, ...]:
+    @cached_property
+    def _allowed(self) -> Array:
+        return np.array([0.0 if row.is_strict else self.tolerance for row in self.rows])
+
+    def _missed_at(self, attitude: Attitude) -> list[float]:
+        (missed,) = self.violations(np.array([[attitude.x, attitude.y, attitude.heading]]))
+        return [float(by) for by in missed.tolist()]
+
+    def residuals(self, attitude: Attitude, tolerance: float = ENOUGH) -> tuple[Residual, ...]:
         """How well ``attitude`` meets each constraint; strict ones allow no ``tolerance``."""
-        state = np.array([[attitude.x, attitude.y, attitude.heading]])
-        (missed,) = self.violations(state)
         return tuple(
-            Residual(row.text, float(by), bool(by <= (0.0 if row.is_strict else tolerance)))
-            for row, by in zip(self.rows, missed, strict=True)
+            Residual(row.text, by, by <= (0.0 if row.is_strict else tolerance))
+            for row, by in zip(self.rows, self._missed_at(attitude), strict=True)
         )
+
+    def holds_at(self, attitude: Attitude) -> bool:
+        """Whether ``attitude`` meets all constraints, strict ones exactly and others nearly."""
+        pairs = zip(self.rows, self._missed_at(attitude), strict=True)
+        return all(by <= (0.0 if row.is_strict else ENOUGH) for row, by in pairs)
 
     def unmet(self, attitude: Attitude) -> tuple[str, ...]:
         """A sentence for each constraint that ``attitude`` misses, with the value that it has."""
-        residuals = self.residuals(attitude)
-        if all(residual.satisfied for residual in residuals):
-            return ()
         state = np.array([[attitude.x, attitude.y, attitude.heading]])
         return tuple(
             f'{row.text} not met: {row.shown(left)}'
             for row, (left, _), residual in zip(
-                self.rows, self.sides(state), residuals, strict=True
+                self.rows, self.sides(state), self.residuals(attitude), strict=True
             )
             if not residual.satisfied
         )
@@ -327,20 +342,3 @@ class Program:
             right=self._tape.slot(constraint.right),
             periodic=periodic,
         )
-
-
-def _components(state: GeometricState, labels: tuple[str, ...]) -> dict[str, dict[str, float]]:
-    return {
-        label: {name: getattr(state[label], name) for name in COMPONENTS}
-        for label in labels
-        if label in state
-    }
-
-
-def _not_assignable(command: Command, value: float | None) -> MotionPlannerError:
-    text = to_text(command)
-    if value is None or isnan(value):
-        return MotionPlannerError(Code.NO_START, f'{text} reads what nothing has set before')
-    return MotionPlannerError.from_diagnostics(
-        [Diagnostic(f'{text} would set {value}', command.line, command.column, text)]
-    )

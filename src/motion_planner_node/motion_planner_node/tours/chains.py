@@ -75,13 +75,7 @@ def ways_on(groups: Groups, order: Indices) -> Table:
     ways = np.full((size, groups.sizes.max()), inf)
     ways[size - 1, : groups.sizes[order[size - 1]]] = 0.0
     for place in range(size - 2, -1, -1):
-        here, there = order[place], order[place + 1]
-        for i in range(groups.sizes[here]):
-            row = groups.costs[groups.first[here] + i]
-            least = inf
-            for j in range(groups.sizes[there]):
-                least = min(least, row[groups.first[there] + j] + ways[place + 1, j])
-            ways[place, i] = least
+        step_back(groups, order[place], order[place + 1], ways[place + 1], ways[place])
     return ways
 
 
@@ -95,6 +89,18 @@ def step(groups: Groups, here: int, there: int, ways: Table, result: Table) -> N
             row = groups.costs[groups.first[here] + i]
             for j in range(groups.sizes[there]):
                 result[j] = min(result[j], way + row[groups.first[there] + j])
+
+
+@kernel
+def step_back(groups: Groups, here: int, there: int, onward: Table, result: Table) -> None:
+    """Fill ``result`` with the lengths [m] from the attitudes of group ``here``, before ``onward``."""
+    result[:] = inf
+    for i in range(groups.sizes[here]):
+        row = groups.costs[groups.first[here] + i]
+        least = inf
+        for j in range(groups.sizes[there]):
+            least = min(least, row[groups.first[there] + j] + onward[j])
+        result[i] = least
 
 
 @kernel

@@ -15,8 +15,8 @@ from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.stopping import ShouldStop, go_on
 from motion_planner_node.tours.chains import Costs, Groups, Indices
 
-#: Steps of the programme for which it is taken at most: some 0.2 s.
-MOST_STEPS = 1e8
+#: Steps of the programme for which it is taken at most: some 0.1 s.
+MOST_STEPS = 5e7
 #: Goals for which it is taken at most: the memory doubles with each.
 MOST_EXACT = 14
 #: Sets of groups that are worked on between two questions whether to stop.

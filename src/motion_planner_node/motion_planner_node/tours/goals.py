@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from motion_planner_node.paths.edges import Rows
 from motion_planner_node.planning.ground import Ground
@@ -73,9 +74,26 @@ def attitudes(
         ranked = np.column_stack([_nearest(states, other) for other in others]).ravel()
         chosen += [index for index in dict.fromkeys(ranked.tolist()) if index not in chosen]
         states = states[chosen[:most]]
-        roomy = ground.can_turn_round(states, lambda: go_on(should_stop))
+        roomy = passable(ground, states, should_stop)
         result.append(states[roomy] if roomy.any() else states)
     return result
+
+
+def passable(ground: Ground, states: Rows, should_stop: ShouldStop) -> NDArray[np.bool_]:
+    """At which free attitudes (n, 3) there is room to drive on, and to have come from, shape (n,).
+
+    Where the robot comes from is where it would get to the other way round.
+
+    :raises Stopped: when ``should_stop`` said so
+    """
+
+    def check_time() -> None:
+        go_on(should_stop)
+
+    roomy = ground.can_turn_round(states, check_time)
+    back = states[roomy] + (0.0, 0.0, np.pi)
+    roomy[roomy] = ground.can_turn_round(back, check_time)
+    return roomy
 
 
 def _nearest(states: Rows, others: Rows) -> Indices:

@@ -86,8 +86,9 @@ class Samples:
             self.count[group] = min(count + 1, self._room[group])
             self.states[at] = row
             self._real[at], self._real[:, at] = False, False
-            self._cost_from(int(at), self._around(row), np.ones(len(self.states), np.bool_))
-            self._cost_to(int(at))
+            around = self._around(row)
+            self._cost_from(int(at), around, self._near[group][self.owner])
+            self._cost_to(int(at), around)
 
     def make_real(self, here: int, there: int) -> bool:
         """Replace an expected cost by that of a planned way; whether it was not one yet."""
@@ -132,7 +133,7 @@ class Samples:
         fresh[0] = np.inf
         self.costs[index] = np.where(known, row, fresh)
 
-    def _cost_to(self, index: int) -> None:
+    def _cost_to(self, index: int, around: Row) -> None:
         """Work out the costs to the attitude number ``index`` from all others."""
         group = self.owner[index]
         others = np.flatnonzero(self._active() & (self.owner != group))
@@ -140,7 +141,7 @@ class Samples:
             self._legs.frame,
             self.states[others],
             self.states[index : index + 1],
-            self._around(self.states[index])[others],
+            around[others],
             self._near[self.owner[others], group],
         )
 

@@ -15,9 +15,9 @@ from motion_planner_node.planning.ground import Ground
 from motion_planner_node.stopping import ShouldStop, go_on
 from motion_planner_node.tours.chains import Groups, Indices, best_chain
 from motion_planner_node.tours.exact import best_tour, is_small
-from motion_planner_node.tours.goals import Goal, attitudes, fit
+from motion_planner_node.tours.goals import Goal, attitudes, fit, passable
 from motion_planner_node.tours.legs import Legs
-from motion_planner_node.tours.local_search import short_tour
+from motion_planner_node.tours.local_search import LocalSearch
 from motion_planner_node.tours.refining import refined
 from motion_planner_node.tours.samples import Samples
 
@@ -33,7 +33,7 @@ class Work:
     rounds: times that fresh attitudes are looked for, an order is found and the attitudes refined
     sweeps: of one refinement
     bridges: double bridges of the local search, for each round
-    corrections: times in a round that a tour is looked for again after costs became real ones
+    corrections: times in a round, at most, that a tour is looked for again after costs became real ones
     """
 
     attitudes: int
@@ -51,8 +51,8 @@ class Work:
             attitudes=min(16 + 8 * level, 40),
             rounds=ceil(rounds * FEW / max(goals, FEW)),
             sweeps=10 if level == 0 else 14,
-            bridges=20 * level,
-            corrections=6 + 2 * level,
+            bridges=64 + 20 * level,
+            corrections=24 + 2 * level,
         )
 
 
@@ -135,9 +135,6 @@ class TourSearch:
             best = min(best, tour, key=lambda item: item.length)
         return best
 
-    def _check_time(self) -> None:
-        go_on(self._should_stop)
-
     def _known(self) -> Tour:
         """The tour over the known ends in the order given, if that may be; else an endless one."""
         rows = np.vstack((self._start, *(goal.states[:1] for goal in self._goals)))
@@ -165,16 +162,16 @@ class TourSearch:
         for index, goal in enumerate(self._goals):
             go_on(self._should_stop)
             cells = goal.program.places(bounds)
-            which = rng.integers(len(cells), size=FRESH)
+            x_lo, y_lo, x_hi, y_hi = cells[rng.integers(len(cells), size=FRESH)].T
             begin = np.column_stack(
                 (
-                    rng.uniform(cells.x_lo[which], cells.x_hi[which]),
-                    rng.uniform(cells.y_lo[which], cells.y_hi[which]),
+                    rng.uniform(x_lo, x_hi),
+                    rng.uniform(y_lo, y_hi),
                     rng.uniform(-np.pi, np.pi, FRESH),
                 )
             )
             states = fit(goal, self._ground, self._part, begin)[:4]
-            states = states[self._ground.can_turn_round(states, self._check_time)]
+            states = states[passable(self._ground, states, self._should_stop)]
             for state in states:
                 samples.add(np.array([index]), state[None, :], self._should_stop)
 
@@ -187,29 +184,25 @@ class TourSearch:
             np.pad(self._before, ((1, 0), (1, 0))),
         )
         groups.before[0, 1:] = True
-        order: Indices | None = None
-        if best.length < inf:
-            order = np.concatenate(([0], best.order + 1))
-        small = not self._fixed and is_small(groups)
-        bridges = self._work.bridges
+        search = None if self._fixed or is_small(groups) else LocalSearch(groups, self._should_stop)
+        known = np.concatenate(([0], best.order + 1)) if best.length < inf else None
         found = None
-        for _ in range(self._work.corrections):
-            if self._fixed:
-                order = np.arange(len(groups.first))
-            elif small:
+        changed = order = np.arange(len(groups.first))
+        for number in range(self._work.corrections):
+            if search is not None and number == 0:
+                order = search.tour(known, self._work.bridges, rng)
+            elif search is not None:
+                order = search.improved(order, changed)[1]
+            elif not self._fixed:
                 order = best_tour(groups, self._should_stop)
-            else:
-                order = short_tour(groups, order, rng, bridges, self._should_stop)
-                bridges = 0
             length, chosen = best_chain(groups, order)
             rows = samples.states[chosen]
-            changed = False
-            for a, b in itertools.pairwise(chosen):
-                changed |= samples.make_real(int(a), int(b))
+            legs = [pair for pair in itertools.pairwise(chosen) if samples.make_real(*pair)]
             real = Tour(order[1:] - 1, rows, self._legs.length(rows))
             if found is None or real.length < found.length:
                 found = real
-            if not changed or not length < inf:
+            if not legs or not length < inf:
                 break
+            changed = samples.owner[np.ravel(legs)]
         assert found is not None
         return found

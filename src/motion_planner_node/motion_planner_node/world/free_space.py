@@ -20,8 +20,10 @@ from motion_planner_node.world.shapes import Shapes
 #: Cells on the shorter side of the map, as far as the number of all cells allows.
 CELLS_ON_SHORTER_SIDE = 300
 MOST_CELLS = 250_000
-#: Cells of the grid for estimates of distance, which is coarser to be quick.
-TRAVEL_CELLS = 20_000
+#: Cells of the grid for estimates of distance, which is coarser to be quick; where they would be
+#: wider than so many times the clearance that is needed there are more, up to the second number.
+TRAVEL_CELLS, MOST_TRAVEL_CELLS = 20_000, 100_000
+TRAVEL_WIDTH = 2.5
 #: Distance fields that are kept, one per start.
 MOST_FIELDS = 32
 
@@ -75,21 +77,15 @@ class TravelField:
         self.cell = grid.cell
 
     def at(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Estimates [m] at points, of the shape of ``x`` and ``y``; infinite where no way leads.
+        """Estimates [m] at points, of the shape of both ``x`` and ``y``; infinite where no way leads.
 
         Never less than the straight distance.
         """
-        x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
-        flat = travel_at_each(
-            self.distances,
-            *self.corner,
-            self.cell,
-            np.array(x).reshape(-1),
-            np.array(y).reshape(-1),
-        )
-        estimate = flat.reshape(x.shape)
-        straight = np.hypot(x - self.origin[0], y - self.origin[1])
-        return np.asarray(np.maximum(estimate, straight))
+        xs, ys = np.asarray(x, np.float64), np.asarray(y, np.float64)
+        flat = np.ascontiguousarray(xs.reshape(-1)), np.ascontiguousarray(ys.reshape(-1))
+        around = travel_at_each(self.distances, *self.corner, self.cell, *flat)
+        straight = np.hypot(xs - self.origin[0], ys - self.origin[1])
+        return np.asarray(np.maximum(around.reshape(xs.shape), straight))
 
 
 class FreeSpace:
@@ -102,7 +98,7 @@ class FreeSpace:
     def __init__(self, shapes: Shapes, margin: float) -> None:
         self._grid = _Grid(shapes, margin, CELLS_ON_SHORTER_SIDE, MOST_CELLS)
         self._labels = components(self._grid.open)
-        self._travel_grid = _Grid(shapes, margin, CELLS_ON_SHORTER_SIDE // 2, TRAVEL_CELLS)
+        self._travel_grid = _travel_grid(shapes, margin)
         self._fields: OrderedDict[tuple[float, float], TravelField] = OrderedDict()
 
     @property
@@ -140,3 +136,15 @@ class FreeSpace:
         else:
             self._fields.move_to_end(key)
         return field
+
+
+def _travel_grid(shapes: Shapes, margin: float) -> _Grid:
+    """Cells that are fine enough to show the gaps between obstacles on maps of all sizes."""
+    x_min, y_min, x_max, y_max = (float(value) for value in shapes.bounds)
+    shorter, area = min(x_max - x_min, y_max - y_min), (x_max - x_min) * (y_max - y_min)
+    on_shorter_side, most = CELLS_ON_SHORTER_SIDE // 2, TRAVEL_CELLS
+    widest = TRAVEL_WIDTH * margin
+    if widest > 0.0 and max(shorter / on_shorter_side, sqrt(area / most)) > widest:
+        most = int(min(max(most, area / widest**2), MOST_TRAVEL_CELLS))
+        on_shorter_side = ceil(shorter / widest)
+    return _Grid(shapes, margin, on_shorter_side, most)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import lru_cache
-from math import cos, inf, sin
+from math import ceil, cos, inf, sin, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,6 +16,9 @@ from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.world.index import Index, index_of
 from motion_planner_node.world.map_edges import map_edges
 from motion_planner_node.world.model import Bounds, Circle, OccupancyMap, Polygon, Region, World
+
+#: Cells of which the clearance in the middle is kept, about.
+MIDDLES = 1 << 16
 
 
 @structref.register
@@ -36,6 +39,9 @@ class Shapes(structref.StructRefProxy):
     discs: (d, 3) x, y, radius.
     boxes: (p + d, 4) x_min, y_min, x_max, y_max of polygons and discs.
     frame, buckets, items, row_starts, row_edges: what is near a place, see `index.Index`.
+    middles: (rows, columns) clearance [m] in the middle of square cells from the corner of the
+        bounds on, not a number where nobody has asked for it yet; see `glance`.
+    side: (1,) of these cells [m].
     occupied: (rows, columns) 1 where a cell of the map is occupied, the first row has the least y.
     cells: (6,) x, y [m] of the first cell's corner, cosine and sine of the map's yaw, side of a
         cell [m], and 1 if all outside of the cells is occupied.
@@ -50,6 +56,8 @@ class Shapes(structref.StructRefProxy):
     items: NDArray[np.int32]
     row_starts: NDArray[np.int64]
     row_edges: NDArray[np.int32]
+    middles: NDArray[np.float64]
+    side: NDArray[np.float64]
     occupied: NDArray[np.uint8]
     cells: NDArray[np.float64]
 
@@ -77,6 +85,8 @@ _ARRAYS = {
     'items': types.int32[::1],
     'row_starts': types.int64[::1],
     'row_edges': types.int32[::1],
+    'middles': types.float64[:, ::1],
+    'side': types.float64[::1],
     'occupied': types.Array(types.uint8, 2, 'C', readonly=True),
     'cells': types.float64[::1],
 }
@@ -89,6 +99,8 @@ def _reference(
     outlines: tuple[NDArray[np.float64], ...],
     first_edge: NDArray[np.int64],
     index: Index,
+    middles: NDArray[np.float64],
+    side: NDArray[np.float64],
     occupied: NDArray[np.uint8],
     cells: NDArray[np.float64],
 ) -> Any:
@@ -98,6 +110,7 @@ def _reference(
     shapes.first_edge = first_edge
     shapes.frame, shapes.buckets, shapes.items = index.frame, index.buckets, index.items
     shapes.row_starts, shapes.row_edges = index.row_starts, index.row_edges
+    shapes.middles, shapes.side = middles, side
     shapes.occupied, shapes.cells = occupied, cells
     return shapes
 
@@ -214,9 +227,21 @@ def _shapes(
     boxes = np.array(polygon_boxes + disc_boxes, dtype=np.float64).reshape(-1, 4)
     index = index_of(limits, all_edges, starts, all_discs)
     outlines = (limits, all_edges, all_discs, boxes)
-    shapes: Shapes = _reference(outlines, starts, index, *_cells(grid))
+    shapes: Shapes = _reference(outlines, starts, index, *_middles(limits), *_cells(grid))
     names = [*polygon_names, *disc_names]
     return shapes, tuple(names if grid is None else [*names, grid.name])
+
+
+def _middles(bounds: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Room for the clearances in the middle of cells over ``bounds`` (4,), and the cells' side [m].
+
+    None where the bounds are not finite: nothing drives there.
+    """
+    width, height = bounds[2:] - bounds[:2]
+    if not (np.isfinite(bounds).all() and width > 0.0 and height > 0.0):
+        return np.zeros((0, 0)), np.zeros(1)
+    side = max(sqrt(width * height / MIDDLES), max(width, height) / MIDDLES)
+    return np.full((ceil(height / side), ceil(width / side)), np.nan), np.array([side])
 
 
 def _cells(grid: OccupancyMap | None) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:

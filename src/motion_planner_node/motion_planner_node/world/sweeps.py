@@ -23,6 +23,7 @@ from motion_planner_node.world.bodies import (
     trace_distance,
 )
 from motion_planner_node.world.clearance import clearance_within
+from motion_planner_node.world.glance import DOUBTFUL, FREE, glance
 from motion_planner_node.world.index import FIRST, LAST, SKIP, bucket_at, empty_radius
 from motion_planner_node.world.shapes import Shapes
 from motion_planner_node.world.traces import (
@@ -209,6 +210,9 @@ def word_is_free(shapes: Shapes, body: Body, start: Pose, pieces: NDArray[np.flo
 
     Pieces are rows of curvature [1/m], length [m], direction [rad] and turn [rad].
     """
+    verdict = glance(shapes, body, start, pieces)
+    if verdict != DOUBTFUL:
+        return verdict == FREE
     margin = body.margin
     return _pieces_distance(shapes, body, start, pieces, margin, margin) >= margin
 

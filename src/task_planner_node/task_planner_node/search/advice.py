@@ -10,8 +10,6 @@ from task_planner_node.search.partial_plan import Whereabouts
 from task_planner_node.search.tours import Stop
 
 MOST_ADVISED = 1000
-# A tour through more goals would take longer than a first plan may.
-MOST_TOURED = 64
 
 
 class Advisor:
@@ -27,15 +25,13 @@ class Advisor:
         """The stops to make, in the order to try, by ground text; asked for where one is not known.
 
         With ``ask`` False only what is known already counts.  Texts that the motion planner cannot work on come
-        first of all, so that their fault is told at once.  Where it knows of no tour, or there are too many
-        texts for one, it is asked for the nearest ones.
+        first of all, so that their fault is told at once.  Where it knows of no tour it is asked for the
+        nearest ones.
         """
         known = self._known.get((purpose, where.start), {})
         wanted = tuple(dict.fromkeys(texts))[:MOST_ADVISED]
         if not ask or len(wanted) < 2 or all(text in known for text in wanted):
             return known
-        if purpose == Purpose.SHORTEST_TOUR and len(wanted) > MOST_TOURED:
-            return self.order(Purpose.NEAREST_FIRST, where, texts, ask)
         advice = self._geometry.advise(AdviceQuery(where.start, wanted, purpose), where.lineage)
         if purpose != Purpose.NEAREST_FIRST and not advice.candidates:
             return self.order(Purpose.NEAREST_FIRST, where, texts, ask)

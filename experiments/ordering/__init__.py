@@ -1,0 +1,1 @@
+"""Orders for many goals: the local search beside routing libraries, on the same matrices."""
