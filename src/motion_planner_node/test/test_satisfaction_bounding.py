@@ -13,7 +13,7 @@ from motion_planner_node.functions import Array
 from motion_planner_node.language import parse
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.robots.robot import Robot
-from motion_planner_node.satisfaction import Program, compile_program
+from motion_planner_node.satisfaction import Program, compile_program, possible_cells
 from motion_planner_node.world.model import Bounds, World, WorldObject
 
 WORLD = World(
@@ -103,6 +103,24 @@ def test_bounds_are_as_tight_as_those_of_the_functions(
             # Half a turn to the left is half a turn to the right.
             other = one - np.remainder(one - other + math.pi, 2.0 * math.pi) + math.pi
         assert one == pytest.approx(other, rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize('text', CONSTRAINTS)
+def test_cells_are_those_that_the_functions_leave(text: str) -> None:
+    compiled, opaque = program(text), program(text)
+    opaque.__dict__['table'] = None
+    cells = possible_cells(compiled, WORLD.bounds, most=256)
+    assert cells.tolist() == possible_cells(opaque, WORLD.bounds, most=256).tolist()
+    assert 0 < len(cells) <= 512
+
+
+def test_a_cell_is_left_out_for_any_constraint_that_is_asked_for() -> None:
+    both = program('(distance(r, a) <= 30)(r.x < 60)')
+    few = possible_cells(both, WORLD.bounds)
+    more = possible_cells(both, WORLD.bounds, [0])
+    assert few[:, 0].max() < 60.0 < more[:, 0].max()
+    assert set(map(tuple, few.tolist())) <= set(map(tuple, more.tolist()))
+    assert possible_cells(both, WORLD.bounds, [])[:, 2].max() == 800.0
 
 
 def test_a_bound_that_is_exact_stays_exact() -> None:
