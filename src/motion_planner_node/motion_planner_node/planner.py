@@ -181,8 +181,10 @@ def warm_up() -> None:
     wall = Polygon('wall', ((40.0, 0.0), (44.0, 0.0), (44.0, 40.0), (40.0, 40.0)))
     tree = Circle('tree', (60.0, 50.0), 3.0)
     goal = WorldObject('goal', {'x': 60.0, 'y': 10.0})
+    corner = WorldObject('corner', {'x': 1.2, 'y': 1.2})
     bounds = Bounds(0.0, 0.0, 80.0, 80.0)
-    planner = MotionPlanner(World('', '', bounds, {'goal': goal}, (wall, tree), {agent: car}))
+    objects = {'goal': goal, 'corner': corner}
+    planner = MotionPlanner(World('', '', bounds, objects, (wall, tree), {agent: car}))
     text = '((agent robot)(object goal)(distance(robot, goal) <= 5))'
     planner.satisfy(GeometricRequest(text, {agent: here}))
     planner.advise(AdviceRequest((text,), {agent: here}, pairwise=True))
@@ -195,3 +197,8 @@ def warm_up() -> None:
     planner.advise(met)
     seen = f'{text[:-1]}(visible(robot, goal))(clearance(robot) >= 2))'
     planner.satisfy(GeometricRequest(seen, {agent: here}))
+    # Two requests in vain: no attitude, and one that is hard to drive to.
+    beyond = '((agent robot)(robot.x * robot.y = 1e6))'
+    planner.satisfy(GeometricRequest(beyond, {agent: here}))
+    cramped = '((agent robot)(object corner)(distance(robot, corner) <= 0.1)(robot.heading = -0.8))'
+    planner.satisfy(GeometricRequest(cramped, {agent: here}))

@@ -31,7 +31,7 @@ WAYS_OUT = (500, 1500, 6000)
 #: Attitudes of a fine search, all that there are, below which it is made finer still.
 NARROW = 300
 #: Attitudes where a search has been that destinations are looked for near to.
-LOOKS = 96
+LOOKS = 24
 
 
 class _Ends(NamedTuple):
