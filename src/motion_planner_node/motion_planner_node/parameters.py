@@ -125,7 +125,7 @@ class Parameters:
         100, 'maxK of Algorithm 1: steps of one descent in mode paper', low=1, high=100000
     )
     destinations: int = _parameter(
-        32, 'destination attitudes looked for in one round of restarts', low=1, high=4096
+        16, 'destination attitudes looked for in one round of restarts', low=1, high=4096
     )
     rounds: int = _parameter(
         4, 'rounds of restarts before a request is given up as UNKNOWN', low=1, high=1000
@@ -152,7 +152,7 @@ class Parameters:
         2000, 'iterations of a sampling planner in one search', low=10, high=10000000
     )
     path_refinements: int = _parameter(
-        2,
+        1,
         'times that a better destination is looked for along a path that was found',
         low=0,
         high=100,

@@ -7,6 +7,7 @@ import pytest
 
 from motion_planner_node.robots.body import body_of
 from motion_planner_node.world import Scene
+from motion_planner_node.world.grid import TRAVEL_CELLS
 from motion_planner_node.world.model import Bounds, Circle, Obstacle, Polygon, World
 
 RADIUS = 5.0
@@ -137,3 +138,25 @@ def test_a_wall_is_seen_on_a_map_of_any_size() -> None:
     space = scene_of(wall, bounds=Bounds(0, 0, 4000, 4000)).free_space(BODY)
     around = hypot(300, 3700) + 16 + hypot(284, 3700)
     assert space.distance_from(100, 100).at(700, 100) == pytest.approx(around, rel=0.05)
+
+
+@pytest.mark.parametrize('thickness', [0.1, 2.0, 6.0, 20.0])
+def test_no_way_leads_through_a_thin_wall(thickness: float) -> None:
+    """Walls from above and below in turn: whoever goes on has to go up and down."""
+    walls = []
+    for k in range(9):
+        x, low, high = 80.0 * (k + 1), 0.0 if k % 2 else 60.0, 540.0 if k % 2 else 600.0
+        corners = ((x, low), (x + thickness, low), (x + thickness, high), (x, high))
+        walls.append(Polygon(f'wall{k}', corners))
+    space = scene_of(*walls).free_space(BODY)
+    assert float(space.distance_from(40, 300).at(770, 300)) > 8 * 480
+
+
+@pytest.mark.parametrize('sides', [0, 6])
+def test_no_more_cells_are_taken_than_it_takes(sides: int) -> None:
+    """Thick obstacles need few cells."""
+    blocks = [
+        Circle(f'disc{k}', (100.0 * (k + 1), 100.0 * (k % 5 + 1)), 40.0) for k in range(sides)
+    ]
+    space = scene_of(*blocks).free_space(BODY)
+    assert space.distance_from(10, 10).distances.size < 1.1 * TRAVEL_CELLS[0]

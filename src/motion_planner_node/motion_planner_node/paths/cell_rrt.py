@@ -18,7 +18,7 @@ from ompl import base, control, util
 from motion_planner_node.paths.cells import Cell, Decomposition
 from motion_planner_node.paths.edges import Frame, Row, Rows
 from motion_planner_node.paths.lattice_end import moves_of
-from motion_planner_node.paths.ompl_problem import ONE_AT_A_TIME, Iterations, seed_of, state_at
+from motion_planner_node.paths.ompl_problem import ONE_AT_A_TIME, Iterations, drawn_seed, state_at
 from motion_planner_node.paths.query import Query
 from motion_planner_node.paths.shots import best_ending
 from motion_planner_node.robots.arcs import advance, wrap_angle
@@ -160,7 +160,7 @@ def cell_rrt(query: Query) -> Rows | None:
         if not lead:
             break
         tree = _Tree(query, cells, cells.corridor(lead, 1 + number), STEP * query.reach)
-        path = tree.grow(seed_of(query, 4, number), query.budget.iterations)
+        path = tree.grow(drawn_seed(query), query.budget.iterations)
         if path is not None:
             return path
         for cell in lead:

@@ -13,11 +13,11 @@ from motion_planner_node.paths.shots import best_ending
 from motion_planner_node.robots.driving import shortest_between
 
 #: Attitudes along a path, random moves and rounds.
-LOOK = (9, 40, 1)
+LOOK = (7, 24, 1)
 #: Attitudes round which destinations are looked for in one refinement.
-PROBES = 24
+PROBES = 16
 #: Attitudes along a path that are left for a better destination.
-LEAVES = 10
+LEAVES = 8
 #: Attitudes that ways to destinations are tried from between two looks at the clock.
 STRETCH = 64
 #: A word of no more than so many times the length of the shortest one is not made shorter.
@@ -33,14 +33,14 @@ def length_of(query: Query, path: Rows) -> float:
     return float(edge_lengths(query.frame, path).sum())
 
 
-def simplified(query: Query, path: Rows, number: int = 0) -> Rows:
-    """A path between the same ends that is not longer; ``number`` tells calls apart."""
+def simplified(query: Query, path: Rows) -> Rows:
+    """A path between the same ends that is not longer."""
     points, moves, rounds = LOOK
     if len(path) == 2 and length_of(query, path) <= STRAIGHT * float(
         shortest_between(path[0], path[1:], query.robot)[0]
     ):
         return path
-    for draws in query.random(1, number).uniform(-1.0, 1.0, (rounds, 1, moves, 3)):
+    for draws in query.random.uniform(-1.0, 1.0, (rounds, 1, moves, 3)):
         query.check_time()
         path = shortened(query.frame, path, points, 2.0 * query.reach, draws, query.check_time)
     return path
@@ -55,16 +55,15 @@ def refined(query: Query, path: Rows) -> Rows:
         query.check_time()
         if not 0.0 < length < inf:
             break
-        random = query.random(2, number)
         along = densified(query.frame, path, length / LEAVES, 0.0)
-        ends = query.region(_probes(query, along, random, 0.5**number))
+        ends = query.region(_probes(query, along, 0.5**number))
         if not len(ends):
             continue
         ways = np.concatenate(([0.0], np.cumsum(edge_lengths(query.frame, along))))
         shorter, leave, end = _best_ending(query, along, ways, ends, length)
         if leave < 0:
             continue
-        candidate = simplified(query, np.vstack((along[: leave + 1], ends[end])), 1 + number)
+        candidate = simplified(query, np.vstack((along[: leave + 1], ends[end])))
         before = length
         if shorter < length:
             path, length = candidate, length_of(query, candidate)
@@ -87,9 +86,9 @@ def _best_ending(
     return best, leave, end
 
 
-def _probes(query: Query, along: Rows, random: np.random.Generator, scale: float) -> Rows:
+def _probes(query: Query, along: Rows, scale: float) -> Rows:
     """Attitudes (n, 3) round those of the last part of a path."""
     tail = along[int((1.0 - TAIL) * len(along)) :]
     spread = scale * query.reach
-    chosen = tail[random.integers(len(tail), size=PROBES)]
-    return chosen + random.normal(size=(PROBES, 3)) * (spread, spread, 0.5)
+    chosen = tail[query.random.integers(len(tail), size=PROBES)]
+    return chosen + query.random.normal(size=(PROBES, 3)) * (spread, spread, 0.5)

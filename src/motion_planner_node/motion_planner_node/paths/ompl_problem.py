@@ -80,6 +80,6 @@ def state_at(query: Query, space: base.StateSpace, row: Row) -> base.State:
     return state
 
 
-def seed_of(query: Query, *numbers: int) -> int:
+def drawn_seed(query: Query) -> int:
     """A seed for OMPL, which takes 0 for none."""
-    return int(query.random(*numbers).integers(1, 2**31))
+    return int(query.random.integers(1, 2**31))

@@ -86,9 +86,10 @@ class Query:
         straight = shortest_between(self.start, self.goals, self.robot)
         return np.asarray(np.maximum(around, straight), np.float64)
 
-    def random(self, *numbers: int) -> np.random.Generator:
-        """Randomness of the seed for the purpose with these ``numbers``."""
-        return np.random.default_rng([self._seed, *numbers])
+    @cached_property
+    def random(self) -> np.random.Generator:
+        """The randomness of the seed, which whoever looks for a path draws from in turn."""
+        return np.random.default_rng(self._seed)
 
     def check_time(self) -> None:
         """Raises Stopped when the search is to stop."""

@@ -47,5 +47,5 @@ class PathBudget:
     attitudes: int = 20000
     improving: int = 75
     iterations: int = 2000
-    refinements: int = 2
+    refinements: int = 1
     good_enough: float = 1.005

@@ -17,8 +17,8 @@ from motion_planner_node.paths.edges import Frame, Row, Rows, free_word
 from motion_planner_node.paths.ompl_problem import (
     ONE_AT_A_TIME,
     Iterations,
+    drawn_seed,
     information_of,
-    seed_of,
     space_of,
     state_at,
 )
@@ -80,7 +80,7 @@ def _roadmap(query: Query, iterations: int) -> tuple[Rows, list[list[int]]]:
     information = information_of(query, space)
     problem = base.ProblemDefinition(information)
     with ONE_AT_A_TIME:
-        util.RNG.setSeed(seed_of(query, 5))
+        util.RNG.setSeed(drawn_seed(query))
         problem.addStartState(state_at(query, space, query.start))
         goals = base.GoalStates(information)
         goals.addState(state_at(query, space, query.goals[0]))

@@ -11,8 +11,8 @@ from motion_planner_node.paths.edges import Rows
 from motion_planner_node.paths.ompl_problem import (
     ONE_AT_A_TIME,
     Iterations,
+    drawn_seed,
     information_of,
-    seed_of,
     space_of,
     state_at,
 )
@@ -28,7 +28,7 @@ def _sampled(query: Query, make: Planner, iterations: int) -> Rows | None:
     problem = base.ProblemDefinition(information)
     enough = base.PlannerTerminationCondition(Iterations(query, iterations))
     with ONE_AT_A_TIME:
-        util.RNG.setSeed(seed_of(query, 3, iterations))
+        util.RNG.setSeed(drawn_seed(query))
         problem.addStartState(state_at(query, space, query.start))
         goals = base.GoalStates(information)
         for row in query.goals:

@@ -6,7 +6,7 @@ A path is a list of attitudes (n, 3), each joined to the next by its shortest fr
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import inf, isqrt, pi
+from math import hypot, inf, isqrt, pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -110,7 +110,8 @@ def nudge(frame: Frame, path: Rows, step: float, draws: Rows) -> None:
         moved[1] = path[i, 1] + reach * draws[k, 1]
         moved[2] = path[i, 2] + min(reach / frame.radius, 0.5 * pi) * draws[k, 2]
         total = lengths[i - 1] + lengths[i]
-        first = free_word(frame, path[i - 1], moved, total, pieces)[0]
+        rest = hypot(path[i + 1, 0] - moved[0], path[i + 1, 1] - moved[1])
+        first = free_word(frame, path[i - 1], moved, total - rest, pieces)[0]
         second = free_word(frame, moved, path[i + 1], total - first, pieces)[0]
         if first + second < total:
             for axis in range(3):

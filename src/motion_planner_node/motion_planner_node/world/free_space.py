@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from math import ceil, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from motion_planner_node.world.grid import Grid, travel_grid
 from motion_planner_node.world.regions import (
     components,
     labels_at,
-    open_cells,
     travel_at_each,
     travel_distances,
 )
@@ -20,37 +19,14 @@ from motion_planner_node.world.shapes import Shapes
 #: Cells on the shorter side of the map, as far as the number of all cells allows.
 CELLS_ON_SHORTER_SIDE = 300
 MOST_CELLS = 250_000
-#: Cells of the grid for estimates of distance, which is coarser to be quick; where they would be
-#: wider than so many times the clearance that is needed there are more, up to the second number.
-TRAVEL_CELLS, MOST_TRAVEL_CELLS = 20_000, 100_000
-TRAVEL_WIDTH = 2.5
 #: Distance fields that are kept, one per start.
 MOST_FIELDS = 32
-
-
-class _Grid:
-    """Square cells over the map, some of them open."""
-
-    def __init__(self, shapes: Shapes, margin: float, on_shorter_side: int, most: int) -> None:
-        x_min, y_min, x_max, y_max = (float(value) for value in shapes.bounds)
-        width, height = x_max - x_min, y_max - y_min
-        self.corner = (x_min, y_min)
-        self.cell = max(
-            min(width, height) / on_shorter_side,
-            sqrt(width * height / most),
-            max(width, height) * 2.0 / most,
-        )
-        self.columns = ceil(width / self.cell)
-        self.rows = ceil(height / self.cell)
-        #: With a frame of closed cells all round, (rows + 2, columns + 2).
-        self.framed = np.pad(open_cells(shapes, margin, self.cell, self.columns, self.rows), 1)
-        self.open = np.ascontiguousarray(self.framed[1:-1, 1:-1])
 
 
 class Cells:
     """Boxes of the map [m]: arrays ``x_lo``, ``x_hi``, ``y_lo``, ``y_hi`` of shape (n,)."""
 
-    def __init__(self, grid: _Grid, chosen: NDArray[np.bool_]) -> None:
+    def __init__(self, grid: Grid, chosen: NDArray[np.bool_]) -> None:
         rows, columns = np.nonzero(chosen)
         self.x_lo = grid.corner[0] + columns * grid.cell
         self.y_lo = grid.corner[1] + rows * grid.cell
@@ -67,7 +43,7 @@ class TravelField:
     The turning radius is not; see ``robots.driving.shortest_between`` for a bound that does.
     """
 
-    def __init__(self, grid: _Grid, distances: NDArray[np.float64], x: float, y: float) -> None:
+    def __init__(self, grid: Grid, distances: NDArray[np.float64], x: float, y: float) -> None:
         #: At the middles of the cells, shape (rows + 2, columns + 2), infinite all round the grid.
         self.distances = distances
         #: The point, and the corner of the grid [m].
@@ -96,9 +72,9 @@ class FreeSpace:
     """
 
     def __init__(self, shapes: Shapes, margin: float) -> None:
-        self._grid = _Grid(shapes, margin, CELLS_ON_SHORTER_SIDE, MOST_CELLS)
+        self._grid = Grid(shapes, margin, MOST_CELLS, CELLS_ON_SHORTER_SIDE)
         self._labels = components(self._grid.open)
-        self._travel_grid = _travel_grid(shapes, margin)
+        self._travel_grid = travel_grid(shapes, margin, self._grid)
         self._fields: OrderedDict[tuple[float, float], TravelField] = OrderedDict()
 
     @property
@@ -136,15 +112,3 @@ class FreeSpace:
         else:
             self._fields.move_to_end(key)
         return field
-
-
-def _travel_grid(shapes: Shapes, margin: float) -> _Grid:
-    """Cells that are fine enough to show the gaps between obstacles on maps of all sizes."""
-    x_min, y_min, x_max, y_max = (float(value) for value in shapes.bounds)
-    shorter, area = min(x_max - x_min, y_max - y_min), (x_max - x_min) * (y_max - y_min)
-    on_shorter_side, most = CELLS_ON_SHORTER_SIDE // 2, TRAVEL_CELLS
-    widest = TRAVEL_WIDTH * margin
-    if widest > 0.0 and max(shorter / on_shorter_side, sqrt(area / most)) > widest:
-        most = int(min(max(most, area / widest**2), MOST_TRAVEL_CELLS))
-        on_shorter_side = ceil(shorter / widest)
-    return _Grid(shapes, margin, on_shorter_side, most)
