@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from motion_planner_node.advice.advisor import Advisor
 from motion_planner_node.codes import Purpose
-from motion_planner_node.errors import Diagnostic, MotionPlannerError, Stopped
-from motion_planner_node.language import Preconditions, check, parse
+from motion_planner_node.errors import MotionPlannerError, Stopped
 from motion_planner_node.parameters import PAPER_MODE, Parameters
 from motion_planner_node.planning import answers
 from motion_planner_node.planning.cache import Cache
@@ -17,10 +16,10 @@ from motion_planner_node.planning.problem import (
     check_request,
     checked_state,
     preferred_end,
-    read_problem,
 )
 from motion_planner_node.planning.proofs import blocked_start, contradiction, lasting
 from motion_planner_node.planning.stream import Stream
+from motion_planner_node.planning.texts import Texts
 from motion_planner_node.requests import (
     AdviceAnswer,
     AdviceRequest,
@@ -29,7 +28,6 @@ from motion_planner_node.requests import (
 )
 from motion_planner_node.robots.motion import Attitude, Motion
 from motion_planner_node.robots.robot import Robot
-from motion_planner_node.satisfaction import Program
 from motion_planner_node.stopping import ShouldStop, never
 from motion_planner_node.tours.exact import MOST_EXACT
 from motion_planner_node.world import Scene
@@ -61,11 +59,9 @@ class MotionPlanner:
         self._crowded: Cache[tuple[Robot, tuple[tuple[str, Attitude], ...]], Ground]
         self._crowded = Cache(MOST_GROUNDS, self._forget)
         size = self._parameters.cache_size
-        self._texts: Cache[str, Preconditions] = Cache(size)
-        self._remarks: Cache[str, tuple[Diagnostic, ...]] = Cache(size)
-        self._programs: Cache[tuple[str, str], Program] = Cache(size)
+        self._texts = Texts(world, size)
         self._streams: Cache[object, Stream] = Cache(size)
-        self._advisor = Advisor(world, self._parameters, self._parsed, self._ground)
+        self._advisor = Advisor(world, self._parameters, self._texts, self._ground)
 
     def prepare(self) -> None:
         """Work out what depends on no request, so that none has to wait for it."""
@@ -88,15 +84,7 @@ class MotionPlanner:
         try:
             check_request(self.world, request)
             state = checked_state(self.world, request.start)
-            preconditions = self._parsed(request.preconditions)
-            remarks = self._remarks.get(
-                request.preconditions, lambda: check(preconditions, self.world)
-            )
-            text = request.preconditions, request.agent
-            problem = read_problem(
-                self.world, preconditions, state, request.agent, remarks, self._programs.known(text)
-            )
-            self._programs.get(text, lambda: problem.program)
+            problem = self._texts.problem(request.preconditions, state, request.agent)
             if problem.program.assigns:
                 return answers.assigned(problem, self._ground, request.alternative)
             preferred = preferred_end(problem, request)
@@ -148,9 +136,6 @@ class MotionPlanner:
     def check(self, text: str, source: str = '', line: int = 0, column: int = 0) -> CheckResult:
         """Check a text against this world; see `check_text`."""
         return check_text(text, self.world, source, line, column)
-
-    def _parsed(self, text: str) -> Preconditions:
-        return self._texts.get(text, lambda: parse(text))
 
     def _forget(self, _ground: Ground) -> None:
         """Drop what was worked out on some ground, so that no forgotten one is kept by it."""

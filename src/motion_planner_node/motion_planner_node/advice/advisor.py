@@ -14,7 +14,6 @@ from motion_planner_node.advice.survey import Survey
 from motion_planner_node.advice.tours import with_tour
 from motion_planner_node.codes import Code, Purpose, Status
 from motion_planner_node.errors import MotionPlannerError
-from motion_planner_node.language import Preconditions
 from motion_planner_node.parameters import Parameters
 from motion_planner_node.planning import answers
 from motion_planner_node.planning.cache import Cache
@@ -23,9 +22,9 @@ from motion_planner_node.planning.problem import (
     Problem,
     check_revision,
     checked_state,
-    read_problem,
 )
 from motion_planner_node.planning.proofs import Impossible, blocked_start
+from motion_planner_node.planning.texts import Texts
 from motion_planner_node.requests import AdviceAnswer, AdviceRequest, CandidateAdvice
 from motion_planner_node.robots.motion import Attitude, GeometricState
 from motion_planner_node.robots.robot import Robot
@@ -43,11 +42,11 @@ class Advisor:
         self,
         world: World,
         parameters: Parameters,
-        parsed: Callable[[str], Preconditions],
+        texts: Texts,
         ground_of: Callable[[Robot], Ground],
     ):
         self._world = world
-        self._parsed = parsed
+        self._texts = texts
         self._ground_of = ground_of
         self._surveys: Cache[object, Survey] = Cache(parameters.cache_size)
 
@@ -106,7 +105,7 @@ class Advisor:
         self, request: AdviceRequest, state: GeometricState, should_stop: ShouldStop
     ) -> AdviceAnswer:
         """Opportunities; what candidates cost, or whether they are impossible, is not looked at."""
-        met = met_on_the_way(self._world, self._parsed, request, state, should_stop)
+        met = met_on_the_way(self._world, self._texts, request, state, should_stop)
         candidates = tuple(self._readable(text, state) for text in request.preconditions)
         order = tuple(range(len(candidates)))
         return AdviceAnswer(candidates, order, self._world.revision, opportunities=tuple(met))
@@ -114,7 +113,7 @@ class Advisor:
     def _readable(self, text: str, state: GeometricState) -> CandidateAdvice:
         """What is wrong with a text, if anything."""
         try:
-            problem = read_problem(self._world, self._parsed(text), state)
+            problem = self._texts.problem(text, state)
         except MotionPlannerError as error:
             return CandidateAdvice(code=error.code, message=error.message)
         return CandidateAdvice(objects=problem.program.objects)
@@ -124,13 +123,13 @@ class Advisor:
     ) -> CandidateAdvice | Driven:
         """What is known of one candidate at once, or what its costs follow from."""
         state = standing.state
-        preconditions = self._parsed(text)
+        preconditions = self._texts.parsed(text)
         mover = preconditions.agents[0] if preconditions.agents else ''
         if preconditions.assigns or mover not in state:
-            return self._assigned(read_problem(self._world, preconditions, state))
+            return self._assigned(self._texts.problem(text, state))
         survey = self._surveys.get(
             (text, standing.others(mover), seed),
-            lambda: self._survey(preconditions, state, mover, seed, should_stop),
+            lambda: self._survey(text, state, mover, seed, should_stop),
         )
         start = state[mover]
         proof = survey.contradiction or standing.blocked(survey)
@@ -146,7 +145,7 @@ class Advisor:
 
     def _survey(
         self,
-        preconditions: Preconditions,
+        text: str,
         state: GeometricState,
         mover: str,
         seed: int,
@@ -156,7 +155,7 @@ class Advisor:
         middle = Attitude(
             0.5 * (bounds.x_min + bounds.x_max), 0.5 * (bounds.y_min + bounds.y_max), 0.0
         )
-        problem = read_problem(self._world, preconditions, {**state, mover: middle})
+        problem = self._texts.problem(text, {**state, mover: middle})
         with problem.program.broken_off_by(should_stop):
             return Survey.of(problem, self._ground_of(problem.robot), seed)
 

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from motion_planner_node.advice.opportunities import Track, first_places
 from motion_planner_node.errors import MotionPlannerError
-from motion_planner_node.language import Preconditions
-from motion_planner_node.planning.problem import read_problem
+from motion_planner_node.planning.texts import Texts
 from motion_planner_node.requests import AdviceRequest, Opportunity
 from motion_planner_node.robots.driving import end_of
 from motion_planner_node.robots.motion import GeometricState, Motion
@@ -15,12 +12,10 @@ from motion_planner_node.satisfaction import Program
 from motion_planner_node.stopping import ShouldStop, go_on
 from motion_planner_node.world.model import World
 
-Parsed = Callable[[str], Preconditions]
-
 
 def met_on_the_way(
     world: World,
-    parsed: Parsed,
+    texts: Texts,
     request: AdviceRequest,
     state: GeometricState,
     should_stop: ShouldStop,
@@ -36,7 +31,7 @@ def met_on_the_way(
         together = _track(world, request.motions, numbers)
         for index, text in enumerate(request.preconditions):
             go_on(should_stop)
-            program = _program(world, parsed, text, states[numbers[0]], mover)
+            program = _program(texts, text, states[numbers[0]], mover)
             if program is None:
                 continue
             if len(program.agents) == 1:
@@ -45,7 +40,7 @@ def met_on_the_way(
             # Others stand elsewhere during each of the motions.
             for number in numbers:
                 go_on(should_stop)
-                program = _program(world, parsed, text, states[number], mover)
+                program = _program(texts, text, states[number], mover)
                 if program is not None:
                     track = _track(world, request.motions, [number])
                     found += _met(index, program, [number], track, should_stop)
@@ -85,15 +80,13 @@ def _states_before(
     return states
 
 
-def _program(
-    world: World, parsed: Parsed, text: str, state: GeometricState, mover: str
-) -> Program | None:
+def _program(texts: Texts, text: str, state: GeometricState, mover: str) -> Program | None:
     """The constraints that robot ``mover`` has to meet; None where there are none for it."""
     try:
-        preconditions = parsed(text)
+        preconditions = texts.parsed(text)
         if preconditions.assigns or preconditions.agents[:1] != (mover,):
             return None
-        program = read_problem(world, preconditions, state).program
+        program = texts.problem(text, state).program
     except MotionPlannerError:
         # The advice on the candidate itself says what is wrong with it.
         return None
