@@ -125,7 +125,7 @@ class Parameters:
         100, 'maxK of Algorithm 1: steps of one descent in mode paper', low=1, high=100000
     )
     destinations: int = _parameter(
-        16, 'destination attitudes looked for in one round of restarts', low=1, high=4096
+        24, 'destination attitudes looked for in one round of restarts', low=1, high=4096
     )
     rounds: int = _parameter(
         4, 'rounds of restarts before a request is given up as UNKNOWN', low=1, high=1000
