@@ -57,9 +57,7 @@ def test_no_motion_is_shorter_than_its_lower_bound(start: Attitude, text: str, l
         assert not candidate.impossible
         assert candidate.lower_bound <= answer.length
         assert candidate.estimate < inf
-    # Advice regards no headings: that everything ahead is blocked shows when the way is planned.
-    ahead = (answer.code, answer.scope) == (Code.UNREACHABLE, Scope.THIS_START)
-    if answer.status is Status.IMPOSSIBLE and not ahead:
+    if answer.status is Status.IMPOSSIBLE:
         assert candidate.impossible
         assert (candidate.code, candidate.scope) == (answer.code, answer.scope)
 

@@ -15,7 +15,7 @@ from motion_planner_node.planner import MotionPlanner
 from motion_planner_node.planning.blocked_ahead import blocked_ahead
 from motion_planner_node.planning.ground import Ground
 from motion_planner_node.planning.problem import read_problem
-from motion_planner_node.requests import GeometricRequest
+from motion_planner_node.requests import AdviceRequest, GeometricRequest
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.robots.robot import Robot
 from motion_planner_node.world.model import Bounds, Polygon, World, WorldObject
@@ -89,11 +89,16 @@ def test_a_car_that_faces_a_wall_is_told_so() -> None:
     world = world_of([], 10.0, 30.0)
     text = '((agent car)(object post)(distance(car, post) <= 6))'
     start = {'car': Attitude(52.0, 30.0, 0.2)}
-    answer = MotionPlanner(world).satisfy(GeometricRequest(text, start))
+    planner = MotionPlanner(world)
+    answer = planner.satisfy(GeometricRequest(text, start))
     assert (answer.status, answer.code) == (Status.IMPOSSIBLE, Code.UNREACHABLE)
     assert answer.scope is Scope.THIS_START
     assert "however it steers, the map's edge stops it within" in answer.message
     assert 'distance(car, post) <= 6' in answer.message
+    (advice,) = planner.advise(AdviceRequest((text,), start)).candidates
+    assert advice.impossible
+    assert (advice.code, advice.scope) == (answer.code, answer.scope)
+    assert advice.message == answer.message
 
 
 def test_what_is_on_the_way_to_the_wall_is_not_called_unreachable() -> None:

@@ -16,6 +16,7 @@ from motion_planner_node.codes import Code, Purpose, Status
 from motion_planner_node.errors import MotionPlannerError
 from motion_planner_node.parameters import Parameters
 from motion_planner_node.planning import answers
+from motion_planner_node.planning.blocked_ahead import Front, front_of, held_back
 from motion_planner_node.planning.cache import Cache
 from motion_planner_node.planning.ground import Ground
 from motion_planner_node.planning.problem import (
@@ -137,11 +138,8 @@ class Advisor:
             return _impossible(survey.problem, proof)
         with survey.problem.program.broken_off_by(should_stop):
             reach = survey.reach(start, standing.part(survey))
-        return (
-            _impossible(survey.problem, reach.proof)
-            if reach.proof
-            else Driven(survey, reach, start)
-        )
+            proof = reach.proof or standing.held_back(survey)
+        return _impossible(survey.problem, proof) if proof else Driven(survey, reach, start)
 
     def _survey(
         self,
@@ -182,6 +180,7 @@ class _Standing:
         self._others: dict[str, tuple[tuple[str, Attitude], ...]] = {}
         self._blocked: dict[str, Impossible | None] = {}
         self._parts: dict[str, int] = {}
+        self._fronts: dict[str, Front | None] = {}
 
     def others(self, mover: str) -> tuple[tuple[str, Attitude], ...]:
         """Where all but ``mover`` stand."""
@@ -196,6 +195,16 @@ class _Standing:
             problem = survey.problem.starting_at(self.state[mover])
             self._blocked[mover] = blocked_start(problem, survey.ground)
         return self._blocked[mover]
+
+    def held_back(self, survey: Survey) -> Impossible | None:
+        """Whether the robot of ``survey`` cannot get away from where it stands."""
+        mover, ground = survey.problem.agent, survey.ground
+        if mover not in self._fronts:
+            self._fronts[mover] = front_of(self.state[mover], ground)
+        front = self._fronts[mover]
+        if front is None:
+            return None
+        return held_back(survey.problem.starting_at(self.state[mover]), ground, front)
 
     def part(self, survey: Survey) -> int:
         """The connected part of the free space that the robot of ``survey`` stands in."""

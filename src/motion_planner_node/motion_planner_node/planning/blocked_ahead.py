@@ -9,6 +9,7 @@ free, the car has not driven s metres, and all attitudes that it gets to are les
 from __future__ import annotations
 
 from math import cos, pi, remainder, sin, tau
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,20 +33,47 @@ AHEAD, ASIDE = 24, 48
 SLACK = 1e-6
 
 
-def blocked_ahead(problem: Problem, ground: Ground) -> Impossible | None:
-    """Whether everything ahead is blocked before any place at which the constraints can hold."""
+class Front(NamedTuple):
+    """How far a car gets at most.
+
+    way: [m] that it has not driven before it hits something.
+    aside: [m] that it is aside by then at most.
+    turned: [rad] that its heading has turned by then at most.
+    places: (n, 2) where it would be, none of them free.
+    """
+
+    way: float
+    aside: float
+    turned: float
+    places: Array
+
+
+def front_of(start: Attitude, ground: Ground) -> Front | None:
+    """The first front ahead of the car at ``start`` of which nothing is free, if there is one."""
     model, radius = MODELS[ground.robot.kind], ground.robot.turning_radius
     if model.turns or model.reverses or model.slides:
         return None
-    for way in np.arange(1, WAYS + 1) * (0.5 * pi * radius / WAYS):
+    needed = necessary_clearance(ground.robot.body)
+    ways = np.arange(1, WAYS + 1) * (0.5 * pi * radius / WAYS)
+    here = np.array([start.x, start.y])
+    straight = here + np.outer(ways, (cos(start.heading), sin(start.heading)))
+    for way in ways[ground.scene.clearance(straight) < needed].tolist():
         aside = radius * (1.0 - cos(way / radius))
-        front, half = _boxes(problem.start, radius * sin(way / radius), way, aside)
-        clearance = ground.scene.clearance(front)
-        if (clearance + half < necessary_clearance(ground.robot.body)).all():
-            if _may_be_met(problem, way, aside, way / radius):
-                return None
-            return _proof(problem, ground, way, front)
+        places, half = _boxes(start, radius * sin(way / radius), way, aside)
+        if (ground.scene.clearance(places) + half < needed).all():
+            return Front(way, aside, way / radius, places)
     return None
+
+
+def held_back(problem: Problem, ground: Ground, front: Front) -> Impossible | None:
+    """Whether the constraints cannot hold before the ``front`` of the problem's start."""
+    return None if _may_be_met(problem, front) else _proof(problem, ground, front)
+
+
+def blocked_ahead(problem: Problem, ground: Ground) -> Impossible | None:
+    """Whether everything ahead is blocked before any place at which the constraints can hold."""
+    front = front_of(problem.start, ground)
+    return held_back(problem, ground, front) if front else None
 
 
 def _boxes(start: Attitude, near: float, far: float, aside: float) -> tuple[Array, float]:
@@ -62,13 +90,13 @@ def _boxes(start: Attitude, near: float, far: float, aside: float) -> tuple[Arra
     return middles, half + SLACK
 
 
-def _may_be_met(problem: Problem, way: float, aside: float, turned: float) -> bool:
-    """Whether the constraints may be met up to ``way`` [m] ahead, ``turned`` [rad] at most."""
-    middles, half = _boxes(problem.start, 0.0, way, aside)
+def _may_be_met(problem: Problem, front: Front) -> bool:
+    """Whether the constraints may be met before ``front``."""
+    middles, half = _boxes(problem.start, 0.0, front.way, front.aside)
     heading = remainder(problem.start.heading, tau)
     for turn in (-tau, 0.0, tau):
-        least = max(heading + turn - turned - SLACK, -pi)
-        most = min(heading + turn + turned + SLACK, pi)
+        least = max(heading + turn - front.turned - SLACK, -pi)
+        most = min(heading + turn + front.turned + SLACK, pi)
         if least > most:
             continue
         low = np.column_stack((middles - half, np.full(len(middles), least)))
@@ -78,13 +106,13 @@ def _may_be_met(problem: Problem, way: float, aside: float, turned: float) -> bo
     return False
 
 
-def _proof(problem: Problem, ground: Ground, way: float, front: Array) -> Impossible:
-    near = [ground.scene.nearest_obstacle(x, y)[0] for x, y in front]
+def _proof(problem: Problem, ground: Ground, front: Front) -> Impossible:
+    near = [ground.scene.nearest_obstacle(x, y)[0] for x, y in front.places]
     names = sorted(set(near), key=lambda name: (-near.count(name), name))
     return Impossible(
         Code.UNREACHABLE,
         Scope.THIS_START,
         f'{problem.agent} cannot get away from its start: however it steers, {listed(names)} '
-        f'stops it within {way:.4g} m, and nowhere before that {wanted(problem)} holds',
+        f'stops it within {front.way:.4g} m, and nowhere before that {wanted(problem)} holds',
         f'{problem.agent} only drives forward: start with another heading',
     )
