@@ -16,10 +16,8 @@ from task_planner_node.language.model import (
     Domain,
     Operator,
     Problem,
-    Variable,
     show,
 )
-
 
 
 def domain(text: str) -> Domain:

@@ -21,13 +21,11 @@ from task_planner_node.language.model import (
     And,
     Ordered,
     Unordered,
-    Variable,
     chain,
     show,
 )
 from task_planner_node.language.terms import NUMBER
 from tests.support.shop_texts import domain, fact, problem, written
-
 
 
 def test_names_have_no_case_and_labels_are_spelt_as_in_the_facts() -> None:
