@@ -46,6 +46,8 @@ class Found:
 
 #: A dead end is taken when others are farther away by this factor.
 DETOUR = 1.3
+#: Rounds of destinations after which it is taken then.
+ROUNDS_FOR_OTHERS = 2
 
 #: A motion, and where it ends.
 Way = tuple[Motion, Attitude]
@@ -102,6 +104,7 @@ class Stream:
         self.tried = Tried(self._problem.agent)
         self._found: list[Found] = []
         self._candidates: list[Candidate] = []
+        self._rounds = 0
         self._share = SHARES[0]
         self._spread = 0.0
         self._seen: list[Attitude] = []
@@ -162,9 +165,9 @@ class Stream:
             # Nothing is nearer than here; other destinations are for those who ask for them.
             stay = Motion(self._problem.agent, self._problem.start)
             yield self._answer((stay, self._problem.start))
-        for round_number in range(self._parameters.rounds):
-            self._add_candidates(round_number)
-            if round_number == 0 and not self._candidates and not self._found:
+        while self._rounds < self._parameters.rounds:
+            self._add_candidates()
+            if self._rounds == 1 and not self._candidates and not self._found:
                 self.proof = self._prove()
                 if self.proof:
                     return
@@ -185,17 +188,27 @@ class Stream:
     def _way_on(self) -> Way | None:
         """A motion to a new candidate from where there is a way on, or one that is far shorter.
 
-        A dead end is taken when the motion into it is shorter than those to all others by `DETOUR`.
+        A dead end is taken when the motion into it is shorter than those to all others by `DETOUR`,
+        also when others have been looked for once more.
         """
+        way, is_dead_end = self._best_way()
+        while is_dead_end and self._rounds < min(ROUNDS_FOR_OTHERS, self._parameters.rounds):
+            self._add_candidates()
+            way, is_dead_end = self._best_way()
+        return way
+
+    def _best_way(self) -> tuple[Way | None, bool]:
+        """A motion to a new candidate, and whether that is a dead end."""
         new = [candidate for candidate in self._candidates if self._is_new(candidate.attitude)]
         open_ends = [candidate for candidate in new if not candidate.dead_end]
         way = self._plan(open_ends, self._region(dead_end=False)) if open_ends else None
         longest = inf if way is None else way[0].length
         dead_ends = [item for item in new if item.dead_end and item.length * DETOUR < longest]
         if not dead_ends or self._failures >= self._parameters.failures_per_answer:
-            return way
+            return way, False
         shorter = self._plan(dead_ends, self._region(dead_end=True), longest)
-        return shorter if shorter and shorter[0].length * DETOUR < longest else way
+        is_shorter = shorter is not None and shorter[0].length * DETOUR < longest
+        return (shorter, True) if is_shorter else (way, False)
 
     @property
     def _has_failed(self) -> bool:
@@ -211,18 +224,19 @@ class Stream:
         self._failures, self._is_shut_in = 0, False
         return Found(*way, tried)
 
-    def _add_candidates(self, round_number: int) -> None:
+    def _add_candidates(self) -> None:
         """Look for destinations, and keep those that the robot can stand in and may get to."""
         self._check_time()
         states = destinations(
             self._problem.program,
             self._problem.start,
             self._ground.scene.world.bounds,
-            np.random.default_rng([self._seed, round_number]),
+            np.random.default_rng([self._seed, self._rounds]),
             self._parameters.destinations,
             self._ground.room,
             self._ground.travel_from(self._problem.start),
         )
+        self._rounds += 1
         free = self._ground.is_free(states)
         near = self._ground.parts_of(states) == self._here
         roomy = self._ground.can_turn_round(states, self._check_time)

@@ -12,6 +12,8 @@ from motion_planner_node.world.shapes import Shapes
 
 #: Cells of a grid for estimates of travel: no more than it takes, to be quick.
 TRAVEL_CELLS = (8_000, 12_000, 20_000, 33_000, 55_000, 100_000)
+#: No cell of theirs is wider than so many times the clearance that is needed, but for the last grid's.
+TRAVEL_WIDTH = 2.5
 #: Places that estimates are compared from, and those that they are compared at.
 ORIGINS, PLACES = 5, 997
 #: Estimates may fall short of those of a finer grid by this share, but for one in a hundred.
@@ -27,14 +29,9 @@ class Grid:
     def __init__(
         self, shapes: Shapes, margin: float, most: int, on_shorter_side: float = inf
     ) -> None:
-        x_min, y_min, x_max, y_max = (float(value) for value in shapes.bounds)
-        width, height = x_max - x_min, y_max - y_min
-        self.corner = (x_min, y_min)
-        self.cell = max(
-            min(width, height) / on_shorter_side,
-            sqrt(width * height / most),
-            max(width, height) * 2.0 / most,
-        )
+        width, height = (float(side) for side in shapes.bounds[2:] - shapes.bounds[:2])
+        self.corner = (float(shapes.bounds[0]), float(shapes.bounds[1]))
+        self.cell = max(_side(shapes, most), min(width, height) / on_shorter_side)
         self.columns = ceil(width / self.cell)
         self.rows = ceil(height / self.cell)
         #: With a frame of closed cells all round, (rows + 2, columns + 2).
@@ -56,18 +53,27 @@ class Grid:
         return travel_at_each(field, 0.0, 0.0, self.cell, x, y)
 
 
+def _side(shapes: Shapes, most: int) -> float:
+    """Side [m] of at most ``most`` square cells over the map."""
+    width, height = (float(side) for side in shapes.bounds[2:] - shapes.bounds[:2])
+    return max(sqrt(width * height / most), max(width, height) * 2.0 / most)
+
+
 def travel_grid(shapes: Shapes, margin: float, fine: Grid) -> Grid:
     """The coarsest grid of `TRAVEL_CELLS` on which obstacles are in the way as on the ``fine`` one.
 
-    On coarser ones ways lead through walls that are thinner than their cells.
+    On coarser ones ways lead through walls that are thinner than their cells.  A search is led astray
+    by some of them that hardly count among all: hence `TRAVEL_WIDTH`.
     """
     origins, (x, y) = list(zip(*fine.places(ORIGINS), strict=True)), fine.places(PLACES)
     told = [fine.distances(origin, x, y) for origin in origins]
-    for most in TRAVEL_CELLS:
-        grid = Grid(shapes, margin, most)
-        if grid.cell <= fine.cell or not _falls_short(grid, origins, x, y, told):
-            break
-    return grid
+    widest = max(TRAVEL_WIDTH * margin, fine.cell)
+    for most in TRAVEL_CELLS[:-1]:
+        if _side(shapes, most) <= widest:
+            grid = Grid(shapes, margin, most)
+            if grid.cell <= fine.cell or not _falls_short(grid, origins, x, y, told):
+                return grid
+    return Grid(shapes, margin, TRAVEL_CELLS[-1])
 
 
 def _falls_short(
