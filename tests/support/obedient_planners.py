@@ -2,56 +2,22 @@
 
 from __future__ import annotations
 
-import os
 import threading
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from time import monotonic
 from typing import Any
 
-import rclpy
 from geohtn_msgs import msg, srv
 from geohtn_msgs.action import PlanMission, PlanTasks
 from rclpy.action import ActionClient, ActionServer, CancelResponse
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
 
 from interface_node.waiting import wait_for, wait_until
 
-#: Of this process alone; above 101 domains share ports with other programs.
-DOMAIN = 1 + os.getpid() % 100
-
 
 def never() -> bool:
     return False
-
-
-@contextmanager
-def spinning(make: Callable[[Context], Node]) -> Iterator[Any]:
-    """A node in a context and a thread of its own."""
-    context = Context()
-    rclpy.init(args=[], context=context, domain_id=DOMAIN)
-    node = make(context)
-    executor = MultiThreadedExecutor(num_threads=4, context=context)
-    executor.add_node(node)
-
-    def spin() -> None:
-        try:
-            executor.spin()
-        except ExternalShutdownException:
-            return
-
-    thread = threading.Thread(target=spin)
-    thread.start()
-    try:
-        yield node
-    finally:
-        executor.shutdown()
-        thread.join()
-        node.destroy_node()
-        rclpy.shutdown(context=context)
 
 
 class ObedientMotionPlanner(Node):

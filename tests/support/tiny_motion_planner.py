@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from contextlib import AbstractContextManager
 from typing import Any
 
 from geohtn_msgs.msg import AgentState, GeometricAnswer
@@ -16,8 +17,7 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.node import Node
 
-#: Longest wait [s].
-PATIENCE = 20.0
+from tests.support.spinning import PATIENCE, spinning
 
 
 class TinyMotionPlanner(Node):
@@ -74,3 +74,13 @@ class TinyMotionPlanner(Node):
         response.answer.order = list(reversed(range(count)))
         response.answer.candidates = []
         return response
+
+
+def tiny_motion_planner(
+    stuck: bool = False, mute: bool = False
+) -> AbstractContextManager[TinyMotionPlanner]:
+    """One that spins, and lets go of all requests in the end."""
+    return spinning(
+        lambda context: TinyMotionPlanner(context, stuck, mute),
+        release=lambda node: node.release.set(),
+    )

@@ -21,13 +21,12 @@ from interface_node.recording.message_conversions import EVENTS, read_messages
 from interface_node.replay_node import MotionPlannerUnavailable, replay
 from interface_node.waiting import wait_for, wait_until
 from tests.support.obedient_planners import (
-    DOMAIN,
     Client,
     ObedientMotionPlanner,
     ObedientTaskPlanner,
     never,
-    spinning,
 )
+from tests.support.spinning import DOMAIN, spinning
 
 
 @dataclass

@@ -10,12 +10,10 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import pytest
-import rclpy
 from geohtn_msgs.action import PlanTasks
 from geohtn_msgs.msg import PlanningOptions, SourceText
 from geohtn_msgs.srv import (
@@ -23,47 +21,15 @@ from geohtn_msgs.srv import (
 )
 from rclpy.action import ActionClient
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from task_planner_node.node import NAME, TaskPlannerNode
 from task_planner_node.outcomes import Outcome
-from tests.support.tiny_motion_planner import PATIENCE, TinyMotionPlanner
+from tests.support.spinning import DOMAIN, PATIENCE, spinning
+from tests.support.tiny_motion_planner import tiny_motion_planner
 
-DOMAIN_ID = 1 + os.getpid() % 100
 ROVER = Path(__file__).parents[2] / 'interface_node' / 'missions' / 'rover'
-
-
-@contextmanager
-def spinning(make: Callable[[Context], Node]) -> Iterator[Any]:
-    """A node in a context and threads of its own."""
-    context = Context()
-    rclpy.init(args=[], context=context, domain_id=DOMAIN_ID)
-    node = make(context)
-    executor = MultiThreadedExecutor(num_threads=4, context=context)
-    executor.add_node(node)
-
-    def spin() -> None:
-        try:
-            executor.spin()
-        except ExternalShutdownException:
-            return
-
-    thread = threading.Thread(target=spin)
-    thread.start()
-    try:
-        yield node
-    finally:
-        if isinstance(node, TinyMotionPlanner):
-            node.release.set()
-        executor.shutdown(timeout_sec=PATIENCE)
-        thread.join()
-        if isinstance(node, TaskPlannerNode):
-            node.close()
-        else:
-            node.destroy_node()
-        rclpy.shutdown(context=context)
 
 
 def until(condition: Callable[[], bool]) -> None:
@@ -127,7 +93,7 @@ class MissionClient(Node):
 
 @pytest.fixture
 def planner() -> Iterator[TaskPlannerNode]:
-    with spinning(TaskPlannerNode) as node:
+    with spinning(TaskPlannerNode, close=TaskPlannerNode.close) as node:
         node.set_parameters([Parameter('service_timeout', value=2.0)])
         yield node
 
@@ -165,7 +131,7 @@ def test_without_a_motion_planner_the_mission_is_unavailable_and_the_next_one_is
 
 
 def test_the_answers_of_the_motion_planner_are_passed_on_unopened(client: MissionClient) -> None:
-    with spinning(TinyMotionPlanner):
+    with tiny_motion_planner():
         result = client.plan()
     assert result.outcome.value == Outcome.SOLVED
     assert len(result.steps) == 9
@@ -218,7 +184,7 @@ def test_a_plan_is_gone_on_with_and_several_are_given(client: MissionClient) -> 
 @pytest.mark.parametrize('waits', ['running', 'queued'])
 def test_a_cancelled_mission_ends_at_once(client: MissionClient, waits: str) -> None:
     files = [SourceText(path=str(ROVER / name)) for name in ('domain.lisp', 'problem.lisp')]
-    with spinning(lambda context: TinyMotionPlanner(context, stuck=True)) as tiny:
+    with tiny_motion_planner(stuck=True) as tiny:
         first = client.send('first', *files)
         assert tiny.asked.wait(PATIENCE)
         goal = first if waits == 'running' else client.send('second', *files)
@@ -241,7 +207,7 @@ def test_a_stuck_motion_planner_is_given_up(
     planner.set_parameters(
         [Parameter('request_time_budget', value=0.2), Parameter('service_timeout', value=1.0)]
     )
-    with spinning(lambda context: TinyMotionPlanner(context, stuck=True)):
+    with tiny_motion_planner(stuck=True):
         result = client.plan()
     assert result.outcome.value == Outcome.UNAVAILABLE
     assert 'satisfy_preconditions' in result.outcome.explanation
@@ -251,7 +217,7 @@ def test_a_motion_planner_that_falls_silent_is_given_up_long_before_its_budget_i
     planner: TaskPlannerNode, client: MissionClient
 ) -> None:
     planner.set_parameters([Parameter('request_time_budget', value=3600.0)])
-    with spinning(lambda context: TinyMotionPlanner(context, stuck=True, mute=True)):
+    with tiny_motion_planner(stuck=True, mute=True):
         result = client.plan()
     assert result.outcome.value == Outcome.UNAVAILABLE
     assert 'was stopped' in result.outcome.explanation
@@ -277,7 +243,7 @@ def test_a_time_budget_that_is_none_is_refused(client: MissionClient, time_budge
 
 
 def run_node(*arguments: str) -> subprocess.Popen[str]:
-    environment = {**os.environ, 'ROS_DOMAIN_ID': str(DOMAIN_ID)}
+    environment = {**os.environ, 'ROS_DOMAIN_ID': str(DOMAIN)}
     return subprocess.Popen(
         [sys.executable, '-m', f'{NAME}.node', *arguments],
         env=environment,
