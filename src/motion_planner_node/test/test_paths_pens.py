@@ -70,6 +70,7 @@ def test_long_paths_are_made_shorter_with_looks_at_the_clock() -> None:
         nonlocal looks
         looks += 1
 
-    path = best_subsequence(frame, rows, count)
+    path, edges = best_subsequence(frame, rows, count)
     assert path.tolist() == [rows[0].tolist(), rows[-1].tolist()]
+    assert edges.tolist() == [30.0]
     assert looks >= 300 * 299 / 2 / (CHUNK + 300)

@@ -21,7 +21,7 @@ from motion_planner_node.paths import (
 )
 from motion_planner_node.paths import planner as planning
 from motion_planner_node.paths.finishing import motion_along
-from motion_planner_node.paths.improving import refined, simplified
+from motion_planner_node.paths.improving import length_of, refined, simplified
 from motion_planner_node.paths.query import Query
 from motion_planner_node.robots.motion import Attitude, Motion
 from motion_planner_node.robots.robot import Robot
@@ -149,10 +149,13 @@ def test_a_simplifier_that_breaks_paths_is_caught(monkeypatch: pytest.MonkeyPatc
 
 def test_a_path_that_is_not_free_is_left_to_the_exact_check() -> None:
     rows = np.array([[goal.x, goal.y, goal.heading] for goal in (START, GOALS[1])])
-    query = Query(scene_of(WALL), CAR, START, rows[1:], 1, PathBudget(), never, lambda near: near)
+    query = Query(
+        scene_of(WALL), CAR, START, rows[1:], (1,), PathBudget(), never, lambda near: near
+    )
+    length = length_of(query, rows)
     assert motion_along(query, rows) is None
-    assert np.array_equal(simplified(query, rows), rows)
-    assert np.array_equal(refined(query, rows), rows)
+    assert np.array_equal(simplified(query, rows, length)[0], rows)
+    assert np.array_equal(refined(query, rows, length)[0], rows)
 
 
 def test_a_region_gives_better_ends() -> None:

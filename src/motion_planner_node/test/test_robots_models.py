@@ -184,7 +184,7 @@ def test_the_shortest_word_is_the_first_of_the_shortest_and_no_word_is_negative(
         frame = (robot.steering, robot.turning_radius)
         for _ in range(50):
             start, end = (tuple(row) for row in rng.uniform(-40.0, 40.0, (2, 3)).tolist())
-            length, number = shortest_word(*frame, start, end, pieces)
+            length, number = shortest_word(*frame, start, end, inf, pieces)
             lengths = [word(*frame, k, start, end, other) for k in range(words(robot.steering))]
             assert number == int(np.argmin(lengths))
             assert length == min(lengths) == pytest.approx(np.abs(pieces[:, 1]).sum())

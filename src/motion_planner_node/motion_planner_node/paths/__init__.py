@@ -1,8 +1,8 @@
 """Paths in the robot's own kinematics: shots, lattices, OMPL's sampling, shortening, checking."""
 
-from motion_planner_node.paths.planner import plan_path
+from motion_planner_node.paths.planner import plan_path, solved
 from motion_planner_node.paths.planners import DEFAULT_PLANNER, PLANNERS
-from motion_planner_node.paths.query import Region
+from motion_planner_node.paths.query import Query, Region
 from motion_planner_node.paths.result import PathBudget, PathOutcome, PathResult
 
 __all__ = [
@@ -11,6 +11,8 @@ __all__ = [
     'PathBudget',
     'PathOutcome',
     'PathResult',
+    'Query',
     'Region',
     'plan_path',
+    'solved',
 ]

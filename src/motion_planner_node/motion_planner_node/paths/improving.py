@@ -12,8 +12,8 @@ from motion_planner_node.paths.shortening import densified, shortened
 from motion_planner_node.paths.shots import best_ending
 from motion_planner_node.robots.driving import shortest_between
 
-#: Attitudes along a path, random moves and rounds.
-LOOK = (7, 24, 1)
+#: Attitudes along a path that it may be made shorter between, and random moves of them.
+POINTS, MOVES = 7, 24
 #: Attitudes round which destinations are looked for in one refinement.
 PROBES = 16
 #: Attitudes along a path that are left for a better destination.
@@ -33,43 +33,44 @@ def length_of(query: Query, path: Rows) -> float:
     return float(edge_lengths(query.frame, path).sum())
 
 
-def simplified(query: Query, path: Rows) -> Rows:
-    """A path between the same ends that is not longer."""
-    points, moves, rounds = LOOK
-    if len(path) == 2 and length_of(query, path) <= STRAIGHT * float(
-        shortest_between(path[0], path[1:], query.robot)[0]
-    ):
-        return path
-    for draws in query.random.uniform(-1.0, 1.0, (rounds, 1, moves, 3)):
-        query.check_time()
-        path = shortened(query.frame, path, points, 2.0 * query.reach, draws, query.check_time)
-    return path
+def simplified(query: Query, path: Rows, length: float) -> tuple[Rows, float]:
+    """A path between the same ends that is not longer than ``length`` [m], which is that of ``path``.
+
+    And its own length [m].
+    """
+    query.check_time()
+    if len(path) == 2:
+        shortest = float(shortest_between(path[0], path[1:], query.robot)[0])
+        if length <= STRAIGHT * shortest:
+            return path, length
+    draws = query.random.uniform(-1.0, 1.0, (MOVES, 3))
+    reach = 2.0 * query.reach
+    return shortened(query.frame, path, length, POINTS, reach, draws, query.check_time)
 
 
-def refined(query: Query, path: Rows) -> Rows:
-    """A path that is not longer and may end at another destination of the region."""
+def refined(query: Query, path: Rows, length: float) -> tuple[Rows, float]:
+    """A path that is not longer and may end at another destination of the region; and its length.
+
+    ``length`` [m] is that of ``path``.
+    """
     if query.region is None:
-        return path
-    length = length_of(query, path)
+        return path, length
     for number in range(query.budget.refinements):
         query.check_time()
         if not 0.0 < length < inf:
             break
-        along = densified(query.frame, path, length / LEAVES, 0.0)
+        along, ways = densified(query.frame, path, length, LEAVES, 0.0)
         ends = query.region(_probes(query, along, 0.5**number))
         if not len(ends):
             continue
-        ways = np.concatenate(([0.0], np.cumsum(edge_lengths(query.frame, along))))
         shorter, leave, end = _best_ending(query, along, ways, ends, length)
         if leave < 0:
             continue
-        candidate = simplified(query, np.vstack((along[: leave + 1], ends[end])))
         before = length
-        if shorter < length:
-            path, length = candidate, length_of(query, candidate)
+        path, length = simplified(query, np.vstack((along[: leave + 1], ends[end])), shorter)
         if length > (1.0 - WORTHWHILE) * before:
             break
-    return path
+    return path, length
 
 
 def _best_ending(

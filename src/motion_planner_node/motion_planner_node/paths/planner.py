@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from math import inf
 
 import numpy as np
 
 from motion_planner_node.errors import Stopped
 from motion_planner_node.paths.finishing import first_valid
-from motion_planner_node.paths.improving import refined, simplified
+from motion_planner_node.paths.improving import length_of, refined, simplified
 from motion_planner_node.paths.planners import DEFAULT_PLANNER, planner_named
 from motion_planner_node.paths.query import Query, Region
 from motion_planner_node.paths.result import PathBudget, PathOutcome, PathResult
@@ -39,7 +40,7 @@ def plan_path(
     :raises Stopped: when ``should_stop`` says so
     :raises MotionPlannerError: UNSUPPORTED for a name that no ``planner`` has
     """
-    chosen = planner_named(planner)
+    planner_named(planner)
     if should_stop():
         raise Stopped
     if not goals:
@@ -68,21 +69,29 @@ def plan_path(
         robot,
         start,
         rows[connected],
-        seed,
+        (seed & (2**64 - 1),),
         budget or PathBudget(),
         should_stop,
         region,
         longest,
     )
+    result = solved(query, planner)
+    if result.goal_index < 0:
+        return result
+    return replace(result, goal_index=int(connected[result.goal_index]))
+
+
+def solved(query: Query, planner: str = DEFAULT_PLANNER) -> PathResult:
+    """The same for a ``query``, whose start and goals have been looked at."""
+    chosen = planner_named(planner)
     raw = chosen.find(query)
     if raw is not None:
         paths = [raw]
         if chosen.improves:
-            simple = simplified(query, raw)
-            paths = [refined(query, simple), simple, raw]
+            simple, length = simplified(query, raw, length_of(query, raw))
+            paths = [refined(query, simple, length)[0], simple, raw]
         motion, which = first_valid(query, paths)
         if motion is not None:
-            which = int(connected[which]) if which >= 0 else -1
             return PathResult(PathOutcome.FOUND, motion, which)
         query.efforts.append('the path that was found is not free by the exact check')
     reason = f'no path found: {"; ".join(query.efforts)}'

@@ -29,7 +29,9 @@ SPARE_CLEARANCE = 0.002
 class Query:
     """One search from ``start`` to any of ``goals`` (k, 3), k > 0; nothing outlives its answer.
 
-    Start and goals are free.  ``region`` names further destinations, where there are any.
+    Start and goals are free, and not walled off from each other.  ``region`` names further
+    destinations, where there are any.  Randomness depends on the ``seeds``, which are not negative.
+    ``estimates`` (k,) are the lengths [m] of the motions by estimate, where they are known.
     """
 
     def __init__(
@@ -38,11 +40,12 @@ class Query:
         robot: Robot,
         start: Attitude,
         goals: Rows,
-        seed: int,
+        seeds: tuple[int, ...],
         budget: PathBudget,
         should_stop: Callable[[], bool],
         region: Region | None = None,
         longest: float = inf,
+        estimates: NDArray[np.float64] | None = None,
     ) -> None:
         self.scene = scene
         self.robot = robot
@@ -60,7 +63,8 @@ class Query:
         self.hopeless = False
         #: Whether it was the start.
         self.shut_in = False
-        self._seed = seed & (2**64 - 1)
+        self._seeds = seeds
+        self._estimates = estimates
         spare = float(scene.clearance(np.vstack((self.start, goals))).min()) - sufficient_clearance(
             robot.body
         )
@@ -80,6 +84,8 @@ class Query:
     @cached_property
     def estimates(self) -> NDArray[np.float64]:
         """Estimated lengths [m] of the motions to the goals, (k,)."""
+        if self._estimates is not None:
+            return self._estimates
         free = self.scene.free_space(self.robot.body)
         travel = free.distance_from(float(self.start[0]), float(self.start[1]))
         around = travel.at(self.goals[:, 0], self.goals[:, 1])
@@ -88,8 +94,8 @@ class Query:
 
     @cached_property
     def random(self) -> np.random.Generator:
-        """The randomness of the seed, which whoever looks for a path draws from in turn."""
-        return np.random.default_rng(self._seed)
+        """The randomness of the seeds, which whoever looks for a path draws from in turn."""
+        return np.random.default_rng(self._seeds)
 
     def check_time(self) -> None:
         """Raises Stopped when the search is to stop."""

@@ -11,7 +11,8 @@ from math import hypot, inf, isqrt, pi
 import numpy as np
 from numpy.typing import NDArray
 
-from motion_planner_node.paths.edges import Frame, Row, Rows, edge_lengths, free_word
+from motion_planner_node.paths.edges import Frame, Row, Rows, free_word
+from motion_planner_node.paths.shots import best_ending
 from motion_planner_node.robots.arcs import advance
 from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.robots.steering import MOST_PIECES
@@ -24,84 +25,99 @@ EDGE_COST = 1e-6
 
 @kernel
 def densified(
-    frame: Frame,
-    path: Rows,
-    spacing: float,
-    phase: float,
-) -> Rows:
-    """The attitudes of ``path`` and others on it, about ``spacing`` [m] apart from ``phase`` on."""
-    room = len(path) + int(edge_lengths(frame, path).sum() / spacing) + 2
-    rows, pieces = np.empty((room, 3)), np.zeros((MOST_PIECES, 4))
-    size, due = 0, phase
+    frame: Frame, path: Rows, length: float, count: int, phase: float
+) -> tuple[Rows, Row]:
+    """The attitudes of ``path`` and about ``count`` others on it, and how far [m] along it they are.
+
+    ``length`` [m] is that of the path, whose edges are free; the others are at even distances, the
+    first of them at a share of ``phase`` of that.
+    """
+    room = len(path) + count + 2
+    rows, ways, pieces = np.empty((room, 3)), np.empty(room), np.zeros((MOST_PIECES, 4))
+    size, spacing, way = 0, length / count, 0.0
+    due = phase * spacing
     for i in range(len(path)):
         x, y, heading = path[i, 0], path[i, 1], path[i, 2]
-        rows[size, 0], rows[size, 1], rows[size, 2] = x, y, heading
+        rows[size, 0], rows[size, 1], rows[size, 2], ways[size] = x, y, heading, way
         size += 1
         if i + 1 == len(path):
             break
-        free_word(frame, path[i], path[i + 1], inf, pieces)
+        edge = free_word(frame, path[i], path[i + 1], inf, pieces)[0]
+        if edge == inf:
+            continue
+        begun = way
         for k in range(MOST_PIECES):
-            bend, length, direction, turn = pieces[k]
-            way = abs(length)
-            while due < way and size + len(path) - i - 1 < room:
-                share = due / way
+            bend, piece, direction, turn = pieces[k]
+            left = abs(piece)
+            while due < left and size + len(path) - i - 1 < room:
+                share = due / left
                 rows[size, 0], rows[size, 1], rows[size, 2] = advance(
-                    x, y, heading, bend, length * share, direction, turn * share
+                    x, y, heading, bend, piece * share, direction, turn * share
                 )
+                ways[size] = begun + due
                 size += 1
                 due += spacing
-            due -= way
-            x, y, heading = advance(x, y, heading, bend, length, direction, turn)
-    return rows[:size]
+            due -= left
+            begun += left
+            x, y, heading = advance(x, y, heading, bend, piece, direction, turn)
+        way += edge
+    return rows[:size], ways[:size]
 
 
 @kernel
 def _join(
-    frame: Frame, rows: Rows, costs: Row, before: NDArray[np.int64], first: int, last: int
+    frame: Frame,
+    rows: Rows,
+    costs: Row,
+    edges: Row,
+    before: NDArray[np.int64],
+    first: int,
+    last: int,
 ) -> None:
-    """Fill ``costs`` and ``before`` (n,) from ``first`` to ``last`` - 1; those before are filled."""
+    """Fill the arrays of (n,) from ``first`` to ``last`` - 1; those before are filled."""
     pieces = np.zeros((MOST_PIECES, 4))
     for j in range(first, last):
-        costs[j], before[j] = inf, -1
         # The way along the rows comes first: what is no shorter need not be checked.
-        for k in range(j):
-            i = k - 1 if k > 0 else j - 1
-            longest = costs[j] - costs[i] - EDGE_COST
-            if longest > 0.0:
-                length, word = free_word(frame, rows[i], rows[j], longest, pieces)
-                if word >= 0:
-                    costs[j], before[j] = costs[i] + length + EDGE_COST, i
+        length = free_word(frame, rows[j - 1], rows[j], inf, pieces)[0]
+        costs[j], before[j] = costs[j - 1] + length, j - 1
+        shorter, i, _ = best_ending(frame, rows[: j - 1], costs[: j - 1], rows[j : j + 1], costs[j])
+        if i >= 0:
+            costs[j], before[j] = shorter, i
+        edges[j] = costs[j] - costs[before[j]]
+        costs[j] += EDGE_COST
 
 
-def best_subsequence(frame: Frame, rows: Rows, check_time: Callable[[], None]) -> Rows:
-    """The attitudes of ``rows`` (n, 3) that give the shortest path in their order.
+def best_subsequence(frame: Frame, rows: Rows, check_time: Callable[[], None]) -> tuple[Rows, Row]:
+    """The attitudes of ``rows`` (n, 3) that give the shortest path in their order, and its edges.
 
-    The first and the last are among them.  ``check_time`` is called now and then, and may raise.
+    The first and the last are among them; the edges' lengths [m] are infinite where none is free.
+    ``check_time`` is called now and then, and may raise.
     """
-    costs, before = np.zeros(len(rows)), np.full(len(rows), -1, np.int64)
+    costs, edges = np.zeros(len(rows)), np.zeros(len(rows))
+    before = np.full(len(rows), -1, np.int64)
     first = 1
     while first < len(rows):
         check_time()
         # Up to there the numbers of the attitudes, and so the pairs, come to about a chunk.
         last = min(max(isqrt(first * first + 2 * CHUNK), first + 1), len(rows))
-        _join(frame, rows, costs, before, first, last)
+        _join(frame, rows, costs, edges, before, first, last)
         first = last
     chosen, j = [], len(rows) - 1
     while j >= 0:
         chosen.append(j)
         j = int(before[j])
-    return np.ascontiguousarray(rows[chosen[::-1]])
+    return rows[chosen[::-1]], edges[chosen[-2::-1]]
 
 
 @kernel
-def nudge(frame: Frame, path: Rows, step: float, draws: Rows) -> None:
+def nudge(frame: Frame, path: Rows, lengths: Row, step: float, draws: Rows) -> None:
     """Move the inner attitudes of ``path`` where that shortens it, by up to ``step`` [m].
 
-    ``draws`` (m, 3) are numbers in [-1, 1]; later moves are smaller.
+    ``lengths`` are those of its edges, and are kept up to date. ``draws`` (m, 3) are numbers in
+    [-1, 1]; later moves are smaller.
     """
     if len(path) < 3:
         return
-    lengths = edge_lengths(frame, path)
     moved, pieces = np.empty(3), np.zeros((MOST_PIECES, 4))
     for k in range(len(draws)):
         i = 1 + k % (len(path) - 2)
@@ -122,29 +138,25 @@ def nudge(frame: Frame, path: Rows, step: float, draws: Rows) -> None:
 def shortened(
     frame: Frame,
     path: Rows,
+    length: float,
     points: int,
     reach: float,
     draws: Rows,
     check_time: Callable[[], None],
-) -> Rows:
-    """A path between the same ends that is not longer than ``path`` (n, 3), whose edges are free.
+) -> tuple[Rows, float]:
+    """A path between the same ends that is not longer than ``path`` (n, 3), and its length [m].
 
-    Where one of them is not after all, by a hair, the path is left as it is, for the exact check.
-    Each round takes about ``points`` attitudes along the path, keeps those that make the shortest
-    path, and moves these at random by up to ``reach`` [m]; ``draws`` (rounds, moves, 3) are
-    numbers in [-1, 1].  ``check_time`` is called now and then, and may raise.
+    ``length`` [m] is that of ``path``, whose edges are free.  Where one of them is not after all, by
+    a hair, the path is left as it is, for the exact check.  About ``points`` attitudes along the path
+    are taken; those that make the shortest path are kept, and moved at random by up to ``reach``
+    [m]; ``draws`` (moves, 3) are numbers in [-1, 1].  ``check_time`` is called now and then, and may
+    raise.
     """
-    length = float(edge_lengths(frame, path).sum())
-    for moves in draws:
-        spacing = length / points
-        if not 0.0 < spacing < inf:
-            # A turn on the spot, no motion at all, or an edge that is not free.
-            break
-        phase = spacing * 0.5 * (1.0 + float(moves[0, 0]))
-        rows = densified(frame, path, spacing, phase)
-        candidate = best_subsequence(frame, rows, check_time)
-        nudge(frame, candidate, reach, moves)
-        shorter = float(edge_lengths(frame, candidate).sum())
-        if shorter < length:
-            path, length = candidate, shorter
-    return path
+    if not 0.0 < length < inf:
+        # A turn on the spot, no motion at all, or an edge that is not free.
+        return path, length
+    rows, _ = densified(frame, path, length, points, 0.5 * (1.0 + float(draws[0, 0])))
+    candidate, lengths = best_subsequence(frame, rows, check_time)
+    nudge(frame, candidate, lengths, reach, draws)
+    shorter = float(lengths.sum())
+    return (candidate, shorter) if shorter < length else (path, length)

@@ -8,8 +8,8 @@ import numpy as np
 
 from motion_planner_node.codes import AttemptResult
 from motion_planner_node.functions import Array
-from motion_planner_node.planning.stream import Candidate, Found, Stream, Way
-from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.planning.candidates import attitude_of, row_of
+from motion_planner_node.planning.stream import Found, Stream, Way
 from motion_planner_node.satisfaction.paper_mode import (
     PaperCriterion,
     PaperLimits,
@@ -27,14 +27,14 @@ class PaperStream(Stream):
         self._share = 0.0
         ways = algorithm_1(
             PaperCriterion(self._problem.program),
-            np.array([start.x, start.y, start.heading]),
+            row_of(start)[0],
             random_states(rng, (bounds.x_min, bounds.y_min), (bounds.x_max, bounds.y_max)),
             self._not_in_obstacle,
             self._find_path,
             PaperLimits(self._parameters.paper_tries, self._parameters.paper_steps),
         )
         for way in ways:
-            if self._is_new(way[1]):
+            if self._are_new(row_of(way[1]))[0]:
                 yield self._answer(way)
             if self._has_failed:
                 return
@@ -43,21 +43,16 @@ class PaperStream(Stream):
         self._check_time()
         if self._ground.is_free(state[None, :])[0]:
             return True
-        attitude = _attitude(state)
+        attitude = attitude_of(state)
         trouble = self._ground.trouble(attitude)
         self.tried.add(attitude, AttemptResult.IN_OBSTACLE, trouble)
         return False
 
     def _find_path(self, state: Array) -> Way | None:
         self._number += 1
-        candidate = Candidate(self._number, _attitude(state))
-        self._candidates = [candidate]
-        return None if self._has_failed else self._plan([candidate], None)
+        self._candidates = self._numbered(self._number, state[None, :])
+        return None if self._has_failed else self._plan(self._candidates, None)
 
     def _restart(self) -> None:
         self._number = 0
         super()._restart()
-
-
-def _attitude(state: Array) -> Attitude:
-    return Attitude(*(float(number) for number in state))

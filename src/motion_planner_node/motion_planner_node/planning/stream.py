@@ -4,17 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from math import hypot, inf, pi, remainder, tau
-from typing import NamedTuple
+from math import inf, pi
 
 import numpy as np
 from numpy.typing import NDArray
 
 from motion_planner_node.codes import AttemptResult
 from motion_planner_node.errors import Stopped
+from motion_planner_node.functions import Array
 from motion_planner_node.parameters import Parameters
-from motion_planner_node.paths import DEFAULT_PLANNER, PathBudget, Region, plan_path
+from motion_planner_node.paths import DEFAULT_PLANNER, PathBudget, Query, Region, solved
 from motion_planner_node.planning.blocked_ahead import blocked_ahead
+from motion_planner_node.planning.candidates import (
+    NO_CANDIDATES,
+    Candidates,
+    are_apart,
+    attitude_of,
+    row_of,
+)
 from motion_planner_node.planning.ground import Ground
 from motion_planner_node.planning.problem import Problem
 from motion_planner_node.planning.proofs import (
@@ -26,7 +33,7 @@ from motion_planner_node.planning.proofs import (
 from motion_planner_node.planning.tried import Tried
 from motion_planner_node.robots.driving import end_of
 from motion_planner_node.robots.motion import Attitude, Motion
-from motion_planner_node.satisfaction import descend, destinations
+from motion_planner_node.satisfaction import descend, destinations_by_travel
 
 #: Destinations that are as near as this [m] and [rad] are the same one, found again.
 SAME = 1e-3
@@ -49,20 +56,11 @@ DETOUR = 1.3
 #: Rounds of destinations after which it is taken then.
 ROUNDS_FOR_OTHERS = 2
 
+#: Tells the randomness of paths from that of destinations.
+FOR_PATHS = 1
+
 #: A motion, and where it ends.
 Way = tuple[Motion, Attitude]
-
-
-class Candidate(NamedTuple):
-    """A destination, ``length`` [m] away by estimate.
-
-    The next action has to start there: one that may be a dead end is taken where others are far.
-    """
-
-    number: int
-    attitude: Attitude
-    length: float = 0.0
-    dead_end: bool = False
 
 
 class Stream:
@@ -103,11 +101,11 @@ class Stream:
     def _restart(self) -> None:
         self.tried = Tried(self._problem.agent)
         self._found: list[Found] = []
-        self._candidates: list[Candidate] = []
+        self._candidates = NO_CANDIDATES
         self._rounds = 0
         self._share = SHARES[0]
         self._spread = 0.0
-        self._seen: list[Attitude] = []
+        self._seen = np.empty((0, 3))
         self._failures = 0
         #: Whether a close look at all that the start leads to has found no destination.
         self._is_shut_in = False
@@ -141,7 +139,7 @@ class Stream:
     def _preferred_first(self) -> Iterator[Found]:
         way = self._to_preferred()
         # What was tried on the way leaves no trace: all else is as without a preferred end.
-        self._candidates = []
+        self._candidates = NO_CANDIDATES
         self.tried = Tried(self._problem.agent)
         self._failures = 0
         if way:
@@ -153,21 +151,26 @@ class Stream:
         end = self._preferred
         if end is None or not self._problem.program.holds_at(end):
             return None
-        rows = np.array([[end.x, end.y, end.heading]])
-        if not (self._ground.is_free(rows)[0] and self._ground.part_of(end) == self._here):
+        row = row_of(end)
+        if not (self._ground.is_free(row)[0] and self._ground.part_of(end) == self._here):
             return None
-        self._candidates = [Candidate(0, end)]
+        self._candidates = self._numbered(0, row)
         return self._plan(self._candidates, None)
+
+    def _numbered(self, number: int, row: Array) -> Candidates:
+        """One candidate (1, 3), whatever is beyond it."""
+        lengths = self._ground.estimates(self._problem.start, row)
+        return Candidates(np.array([number]), row, lengths, np.zeros(1, np.bool_))
 
     def _generate(self) -> Iterator[Found]:
         start = self._problem.start
-        if self._is_new(start) and self._problem.program.holds_at(start):
+        if self._are_new(row_of(start))[0] and self._problem.program.holds_at(start):
             # Nothing is nearer than here; other destinations are for those who ask for them.
             stay = Motion(self._problem.agent, self._problem.start)
             yield self._answer((stay, self._problem.start))
         while self._rounds < self._parameters.rounds:
             self._add_candidates()
-            if self._rounds == 1 and not self._candidates and not self._found:
+            if self._rounds == 1 and not len(self._candidates) and not self._found:
                 self.proof = self._prove()
                 if self.proof:
                     return
@@ -199,12 +202,12 @@ class Stream:
 
     def _best_way(self) -> tuple[Way | None, bool]:
         """A motion to a new candidate, and whether that is a dead end."""
-        new = [candidate for candidate in self._candidates if self._is_new(candidate.attitude)]
-        open_ends = [candidate for candidate in new if not candidate.dead_end]
-        way = self._plan(open_ends, self._region(dead_end=False)) if open_ends else None
+        new = self._candidates.where(self._are_new(self._candidates.rows))
+        open_ends = new.where(~new.dead_ends)
+        way = self._plan(open_ends, self._region(dead_end=False)) if len(open_ends) else None
         longest = inf if way is None else way[0].length
-        dead_ends = [item for item in new if item.dead_end and item.length * DETOUR < longest]
-        if not dead_ends or self._failures >= self._parameters.failures_per_answer:
+        dead_ends = new.where(new.dead_ends & (new.lengths * DETOUR < longest))
+        if not len(dead_ends) or self._failures >= self._parameters.failures_per_answer:
             return way, False
         shorter = self._plan(dead_ends, self._region(dead_end=True), longest)
         is_shorter = shorter is not None and shorter[0].length * DETOUR < longest
@@ -227,68 +230,73 @@ class Stream:
     def _add_candidates(self) -> None:
         """Look for destinations, and keep those that the robot can stand in and may get to."""
         self._check_time()
-        states = destinations(
+        ground, start = self._ground, self._problem.start
+        rows, lengths = destinations_by_travel(
             self._problem.program,
-            self._problem.start,
-            self._ground.scene.world.bounds,
+            start,
+            ground.scene.world.bounds,
             np.random.default_rng([self._seed, self._rounds]),
             self._parameters.destinations,
-            self._ground.room,
-            self._ground.travel_from(self._problem.start),
+            ground.room,
+            ground.travel_from(start),
         )
         self._rounds += 1
-        free = self._ground.is_free(states)
-        near = self._ground.parts_of(states) == self._here
-        roomy = self._ground.can_turn_round(states, self._check_time)
-        estimates = self._ground.estimates(self._problem.start, states)
-        if len(states):
-            self._spread = max(self._spread, float(np.ptp(states[:, :2], axis=0).max()))
-        # Those of one round differ from each other.
-        earlier = tuple(self._seen)
-        columns = (free.tolist(), near.tolist(), roomy.tolist(), estimates.tolist())
-        for state, is_free, is_near, is_roomy, length in zip(
-            states.tolist(), *columns, strict=True
-        ):
-            attitude = Attitude(*state)
-            if earlier and not all(_differ(attitude, seen, SAME, SAME) for seen in earlier):
-                continue
-            self._seen.append(attitude)
-            if not is_free:
+        if not len(rows):
+            return
+        self._spread = max(self._spread, float(np.ptp(rows[:, :2], axis=0).max()))
+        if len(self._seen):
+            # Those of one round differ from each other.
+            new = are_apart(rows, self._seen, SAME, SAME)
+            rows, lengths = rows[new], lengths[new]
+        numbers = np.arange(1, len(rows) + 1) + len(self._seen)
+        self._seen = np.concatenate((self._seen, rows))
+        is_free = ground.is_free(rows)
+        is_near = is_free & (ground.parts_of(rows) == self._here)
+        if not is_near.all():
+            self._note_out_of_reach(rows[~is_near], is_free[~is_near])
+            rows, lengths, numbers = rows[is_near], lengths[is_near], numbers[is_near]
+        dead_ends = ~ground.can_turn_round(rows, self._check_time)
+        dead_ends &= (rows != row_of(start)).any(axis=1)
+        more = Candidates(numbers, rows, lengths, dead_ends)
+        self._candidates = self._candidates.and_more(more)
+
+    def _note_out_of_reach(self, rows: Array, are_free: NDArray[np.bool_]) -> None:
+        """Note destinations (n, 3) that are in obstacles, or walled off."""
+        for row, is_free in zip(rows, are_free.tolist(), strict=True):
+            attitude = attitude_of(row)
+            if is_free:
+                self.tried.add(attitude, AttemptResult.NO_PATH, 'walled off from the start')
+            else:
                 trouble = self._ground.trouble(attitude)
                 self.tried.add(attitude, AttemptResult.IN_OBSTACLE, trouble)
-            elif not is_near:
-                reason = 'walled off from the start'
-                self.tried.add(attitude, AttemptResult.NO_PATH, reason)
-            else:
-                dead_end = not is_roomy and attitude != self._problem.start
-                self._candidates.append(Candidate(len(self._seen), attitude, length, dead_end))
-        self._candidates.sort(key=lambda candidate: (candidate.length, candidate.number))
 
     def _plan(
-        self, candidates: list[Candidate], region: Region | None, longest: float = inf
+        self, candidates: Candidates, region: Region | None, longest: float = inf
     ) -> Way | None:
         """Find a motion to one of ``candidates``, or into ``region``, and verify it where it ends.
 
         Those that turn out not to be reached, or not to do, are candidates no longer.  Where only
         motions of less than ``longest`` [m] are looked for, nothing is known of the others.
         """
-        left = list(candidates)
-        while left:
+        problem, left = self._problem, candidates
+        while len(left):
             self._check_time()
-            if self._problem.start in (candidate.attitude for candidate in left):
-                return Motion(self._problem.agent, self._problem.start), self._problem.start
-            seed = np.random.SeedSequence([self._seed, left[0].number]).generate_state(1)
-            result = plan_path(
-                self._ground.scene,
-                self._ground.robot,
-                self._problem.start,
-                [candidate.attitude for candidate in left],
-                int(seed[0]),
-                self._should_stop,
-                self._budget,
+            if (left.rows == row_of(problem.start)).all(axis=1).any():
+                return Motion(problem.agent, problem.start), problem.start
+            result = solved(
+                Query(
+                    self._ground.scene,
+                    self._ground.robot,
+                    problem.start,
+                    left.rows,
+                    (self._seed, int(left.numbers[0]), FOR_PATHS),
+                    self._budget,
+                    self._should_stop,
+                    region,
+                    longest,
+                    left.lengths,
+                ),
                 self._planner,
-                region,
-                longest,
             )
             if result.motion is None:
                 if longest == inf:
@@ -296,21 +304,23 @@ class Stream:
                     self._is_shut_in |= result.shut_in
                 break
             end = end_of(result.motion, self._ground.robot)
-            if self._problem.program.holds_at(end):
+            if problem.program.holds_at(end):
                 return result.motion, end
-            reason = self._problem.program.unmet(end)[0]
+            reason = problem.program.unmet(end)[0]
             self.tried.add(end, AttemptResult.NOT_SATISFIED, reason)
             if result.goal_index >= 0:
-                self._candidates.remove(left.pop(result.goal_index))
+                wrong = left.where(np.array([result.goal_index]))
+                self._candidates = self._candidates.without(wrong)
+                left = left.without(wrong)
             else:
                 region = None
         return None
 
-    def _drop(self, candidates: list[Candidate], result: AttemptResult, reason: str) -> None:
+    def _drop(self, candidates: Candidates, result: AttemptResult, reason: str) -> None:
         self._failures += len(candidates)
-        for candidate in candidates:
-            self.tried.add(candidate.attitude, result, reason)
-            self._candidates.remove(candidate)
+        for row in candidates.rows:
+            self.tried.add(attitude_of(row), result, reason)
+        self._candidates = self._candidates.without(candidates)
 
     def _region(self, *, dead_end: bool) -> Region:
         """Further destinations near attitudes: new ones, and no dead end unless that is wanted."""
@@ -325,29 +335,21 @@ class Stream:
             good = ground.parts_of(states) == self._here
             if not dead_end:
                 good &= ground.can_turn_round(states, self._check_time)
-            if self._found:
-                good &= [self._is_new(Attitude(*state)) for state in states.tolist()]
+            good &= self._are_new(states)
             return np.ascontiguousarray(states[good])
 
         return region
 
-    def _is_new(self, attitude: Attitude) -> bool:
-        """Whether ``attitude`` differs from all that was answered before, as much as asked for now."""
+    def _are_new(self, rows: Array) -> NDArray[np.bool_]:
+        """Which attitudes (n, 3) differ from all that was answered before, as much as asked for now."""
         if not self._found:
-            return True
+            return np.ones(len(rows), np.bool_)
         parameters, share = self._parameters, self._share
         far = max(parameters.alternative_distance, share * self._spread)
         turned = max(parameters.alternative_heading, share * pi)
-        return all(_differ(attitude, found.end, far, turned) for found in self._found)
+        ends = np.concatenate([row_of(found.end) for found in self._found])
+        return are_apart(rows, ends, far, turned)
 
     def _check_time(self) -> None:
         if self._should_stop():
             raise Stopped
-
-
-def _differ(one: Attitude, other: Attitude, distance: float, angle: float) -> bool:
-    """Whether two attitudes are ``distance`` [m] apart or turned by ``angle`` [rad]."""
-    return (
-        hypot(one.x - other.x, one.y - other.y) >= distance
-        or abs(remainder(one.heading - other.heading, tau)) >= angle
-    )

@@ -12,7 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 from ompl import base
 
-from motion_planner_node.robots.dubins import TURNS, Ends, between, dubins_word, shortest_dubins
+from motion_planner_node.robots.dubins import (
+    TURNS,
+    Ends,
+    Lengths,
+    between,
+    dubins_word,
+    shortest_dubins,
+)
 from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.robots.model import Model
 from motion_planner_node.robots.motion import COMPONENTS, Pose
@@ -53,7 +60,22 @@ def all_words(
 @kernel
 def shortest_length(radius: float, start: Pose, end: Pose) -> float:
     """Length [m] of the shortest Dubins word."""
-    return shortest_dubins(radius, between(*start, *end))
+    return shortest_dubins(radius, between(*start, *end), inf)[0]
+
+
+@kernel
+def shortest_word(
+    radius: float, start: Pose, end: Pose, longest: float, pieces: NDArray[np.float64]
+) -> tuple[float, int]:
+    """Write the shortest Dubins word of less than ``longest`` [m], if any, to ``pieces`` (5, 4).
+
+    Returns its length [m] and its number; infinite and -1 when there is none.
+    """
+    length, number, lengths = shortest_dubins(radius, between(*start, *end), longest)
+    if number >= 0:
+        pieces[:] = 0.0
+        _put(radius, number, lengths, pieces)
+    return length, number
 
 
 @kernel
@@ -61,7 +83,12 @@ def _write(
     radius: float, number: int, ends: Ends, longest: float, pieces: NDArray[np.float64]
 ) -> float:
     lengths = dubins_word(number, radius, ends, longest)
+    _put(radius, number, lengths, pieces)
+    return lengths[0] + lengths[1] + lengths[2]
+
+
+@kernel
+def _put(radius: float, number: int, lengths: Lengths, pieces: NDArray[np.float64]) -> None:
     for i in range(3):
         pieces[i, 0] = TURNS[number, i] / radius
         pieces[i, 1] = lengths[i]
-    return lengths[0] + lengths[1] + lengths[2]

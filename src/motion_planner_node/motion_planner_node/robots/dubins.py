@@ -149,10 +149,14 @@ def dubins_word(word: int, radius: float, ends: Ends, longest: float) -> Lengths
 
 
 @kernel
-def shortest_dubins(radius: float, ends: Ends) -> float:
-    """Length [m] of the shortest word."""
-    shortest = inf
+def shortest_dubins(radius: float, ends: Ends, longest: float) -> tuple[float, int, Lengths]:
+    """Length [m], number and pieces [m] of the shortest word of less than ``longest`` [m].
+
+    Infinite and -1 when there is none.
+    """
+    shortest, number, lengths = longest, -1, (inf, inf, inf)
     for word in range(len(TURNS)):
         first, middle, last = dubins_word(word, radius, ends, shortest)
-        shortest = min(shortest, first + middle + last)
-    return shortest
+        if first + middle + last < shortest:
+            shortest, number, lengths = first + middle + last, word, (first, middle, last)
+    return (shortest if number >= 0 else inf), number, lengths

@@ -72,20 +72,34 @@ def all_words(
 
 
 @kernel
+def tells_shortest(steering: int) -> bool:
+    """Whether `shortest_word` takes much less than `all_words` for the model."""
+    return steering == _CAR
+
+
+@kernel
 def shortest_word(
-    steering: int, radius: float, start: Pose, end: Pose, pieces: NDArray[np.float64]
+    steering: int,
+    radius: float,
+    start: Pose,
+    end: Pose,
+    longest: float,
+    pieces: NDArray[np.float64],
 ) -> tuple[float, int]:
-    """Write the shortest word, the first of equals, to ``pieces`` (5, 4).
+    """Write the shortest word of less than ``longest`` [m], the first of equals, to ``pieces`` (5, 4).
 
     Returns its length [m] and its number; infinite and -1 when there is none.
     """
-    shortest, chosen = inf, -1
+    if steering == _CAR:
+        return car.shortest_word(radius, start, end, longest, pieces)
+    shortest, chosen = longest, -1
     for number in range(words(steering)):
         length = word(steering, radius, number, start, end, pieces)
         if length < shortest:
             shortest, chosen = length, number
-    if chosen >= 0:
-        word(steering, radius, chosen, start, end, pieces)
+    if chosen < 0:
+        return inf, chosen
+    word(steering, radius, chosen, start, end, pieces)
     return shortest, chosen
 
 

@@ -8,6 +8,7 @@ from motion_planner_node.satisfaction.descent import Descent, DescentOptions, de
 from motion_planner_node.satisfaction.destinations import (
     Travel,
     destinations,
+    destinations_by_travel,
     from_start,
     restarts,
 )
@@ -26,6 +27,7 @@ __all__ = [
     'compile_program',
     'descend',
     'destinations',
+    'destinations_by_travel',
     'from_start',
     'possible_cells',
     'restarts',

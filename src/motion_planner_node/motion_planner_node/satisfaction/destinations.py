@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
-from math import hypot, inf, pi, sin
+from math import ceil, hypot, inf, pi, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -91,33 +91,56 @@ def destinations(
     rng: np.random.Generator,
     count: int,
     room: Room | None = None,
-    travel: Travel | None = None,
 ) -> Array:
     """At most ``count`` different attitudes (k, 3) in ``room`` that satisfy the program.
 
     The descent from ``start`` comes first if it succeeds; each further attitude is the one farthest
-    from those before it. With ``travel``, descents also begin round the start and where it is near,
-    and as many attitudes again are given, those that are nearest. Descents that end in an obstacle,
-    or outside ``bounds``, go on from there with the obstacles as one more constraint, which pushes
-    them out. Without a ``room`` there are no obstacles. Only where no destination is free, blocked
-    ones on the map are given. A program that says nothing about the attitude is satisfied at
-    ``start`` or nowhere.
+    from those before it. Descents that end in an obstacle, or outside ``bounds``, go on from there
+    with the obstacles as one more constraint, which pushes them out. Without a ``room`` there are no
+    obstacles. Only where no destination is free, blocked ones on the map are given. A program that
+    says nothing about the attitude is satisfied at ``start`` or nowhere.
     """
-    room = within(bounds) if room is None else room
-    begin = np.array([[start.x, start.y, start.heading]])
+    begin = _begin(program, start, bounds, rng, count)
+    found = _sorted_out(program, descend(program, begin), room or within(bounds))
+    return found[farthest_points(found, count)]
+
+
+def destinations_by_travel(
+    program: Program,
+    start: Attitude,
+    bounds: Bounds,
+    rng: np.random.Generator,
+    count: int,
+    room: Room,
+    travel: Travel,
+) -> tuple[Array, Array]:
+    """As `destinations`, and as many attitudes again: those that are nearest by ``travel``.
+
+    For them descents also begin round the start, and where it is near. The second array (k,) are
+    the ``travel.lengths`` of the attitudes.
+    """
+    begin = _begin(program, start, bounds, rng, count)
     if program.depends_on_attitude:
-        spread = _spread_out(program, bounds, rng, int(np.ceil(_OVERSAMPLING * count)))
-        begin = np.concatenate((begin, spread))
-        if travel is not None:
-            begin = np.concatenate((begin, _near(program, begin[0], bounds, rng, count, travel)))
+        begin = np.concatenate((begin, _near(program, begin[0], bounds, rng, count, travel)))
     found = _sorted_out(program, descend(program, begin), room)
+    lengths = travel.lengths(found)
     chosen = farthest_points(found, count)
-    if travel is not None and len(found):
-        nearest = np.argsort(travel.lengths(found), kind='stable')[:count]
-        is_added = np.zeros(len(found), np.bool_)
-        is_added[nearest], is_added[chosen] = True, False
-        chosen = np.concatenate((chosen, np.flatnonzero(is_added)))
-    return found[chosen]
+    is_added = np.zeros(len(found), np.bool_)
+    is_added[np.argsort(lengths, kind='stable')[:count]] = True
+    is_added[chosen] = False
+    chosen = np.concatenate((chosen, np.flatnonzero(is_added)))
+    return found[chosen], lengths[chosen]
+
+
+def _begin(
+    program: Program, start: Attitude, bounds: Bounds, rng: np.random.Generator, count: int
+) -> Array:
+    """Where descents to ``count`` destinations begin: (n, 3), the ``start`` first."""
+    begin = np.array([[start.x, start.y, start.heading]])
+    if not program.depends_on_attitude:
+        return begin
+    spread = _spread_out(program, bounds, rng, ceil(_OVERSAMPLING * count))
+    return np.concatenate((begin, spread))
 
 
 def _near(

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from motion_planner_node.paths.edges import Rows
+from motion_planner_node.paths.edges import Rows, edge_lengths
 from motion_planner_node.paths.shortening import best_subsequence, nudge
 from motion_planner_node.planning.ground import Ground
 from motion_planner_node.stopping import ShouldStop, go_on
@@ -66,6 +66,7 @@ def refined(
                 onward[0] = states[best]
         for index, way in enumerate(ways):
             if len(way) > 2:
-                nudge(legs.frame, way, spread, rng.uniform(-1.0, 1.0, (MOVES, 3)))
-                ways[index] = best_subsequence(legs.frame, way, check_time)
+                edges = edge_lengths(legs.frame, way)
+                nudge(legs.frame, way, edges, spread, rng.uniform(-1.0, 1.0, (MOVES, 3)))
+                ways[index], _ = best_subsequence(legs.frame, way, check_time)
     return np.vstack((rows[:1], *(way[-1:] for way in ways)))

@@ -23,7 +23,7 @@ from motion_planner_node.world.bodies import (
     trace_distance,
 )
 from motion_planner_node.world.clearance import clearance_within
-from motion_planner_node.world.glance import DOUBTFUL, FREE, glance
+from motion_planner_node.world.glance import is_blocked_at_a_glance
 from motion_planner_node.world.index import FIRST, LAST, SKIP, bucket_at, empty_radius
 from motion_planner_node.world.shapes import Shapes
 from motion_planner_node.world.traces import (
@@ -63,7 +63,9 @@ def _step_distance(
     buckets, items = shapes.buckets, shapes.items
     first_row, first_column, _ = bucket_at(shapes.frame, buckets, box[0] - beyond, box[1] - beyond)
     last_row, last_column, _ = bucket_at(shapes.frame, buckets, box[2] + beyond, box[3] + beyond)
-    seen = np.full(_REMEMBERED, -1)
+    # What is in one bucket is there once.
+    repeats = first_row != last_row or first_column != last_column
+    seen = np.full(_REMEMBERED if repeats else 0, -1)
     for row in range(first_row, last_row + 1):
         column = first_column
         while column <= last_column:
@@ -71,9 +73,10 @@ def _step_distance(
             column += max(int(buckets[row, here, SKIP]), 1)
             for at in range(buckets[row, here, FIRST], buckets[row, here, LAST]):
                 item = int(items[at])
-                if seen[item % _REMEMBERED] == item:
-                    continue
-                seen[item % _REMEMBERED] = item
+                if repeats:
+                    if seen[item % _REMEMBERED] == item:
+                        continue
+                    seen[item % _REMEMBERED] = item
                 distance = trace_distance(shapes, trace, item)
                 if len(corners):
                     if distance >= reach + least:
@@ -210,9 +213,8 @@ def word_is_free(shapes: Shapes, body: Body, start: Pose, pieces: NDArray[np.flo
 
     Pieces are rows of curvature [1/m], length [m], direction [rad] and turn [rad].
     """
-    verdict = glance(shapes, body, start, pieces)
-    if verdict != DOUBTFUL:
-        return verdict == FREE
+    if len(pieces) > 1 and is_blocked_at_a_glance(shapes, body, start, pieces):
+        return False
     margin = body.margin
     return _pieces_distance(shapes, body, start, pieces, margin, margin) >= margin
 
