@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from motion_planner_node.paths.edges import Frame, Row, Rows, free_word, shortest_length
+from motion_planner_node.paths.edges import Frame, Row, Rows, shortest_length, shortest_word_if_free
 from motion_planner_node.paths.field import Field, field_at
 from motion_planner_node.paths.open_list import OpenList, empty_open_list, pop, push
 from motion_planner_node.robots.arcs import advance
@@ -205,8 +205,8 @@ def plant(
 def _shot(frame: Frame, task: Task, here: Row, longest: float, pieces: Rows) -> float:
     """Length [m] of the shortest free word between ``here`` and the target, infinite for none."""
     if task.sign > 0.0:
-        return free_word(frame, here, task.target, longest, pieces)[0]
-    return free_word(frame, task.target, here, longest, pieces)[0]
+        return shortest_word_if_free(frame, here, task.target, longest, pieces)
+    return shortest_word_if_free(frame, task.target, here, longest, pieces)
 
 
 @kernel
