@@ -111,22 +111,33 @@ class _Relaxation:
         self._blocked: dict[Task, Nogood] = {}
         self._lost: dict[str, Task] = {}
         self._decompositions: dict[Task, dict[tuple[Task, ...], None]] = {}
-        self._seen: dict[Task, None] = {}
+        self._seen: set[Task] = set()
+        self._agenda: list[Task] = []
         self._bindings = 0
 
     def explore(self, tasks: Iterable[Task]) -> None:
-        """Apply everything until nothing new appears."""
-        self._seen = dict.fromkeys(tasks)
+        """Apply everything until nothing new appears.
+
+        Tasks that appear are looked at in the same pass: a task below many others takes no pass for
+        each of them.
+        """
+        self._look_at(tasks)
         changed = True
         while changed:
             changed = False
-            for task in list(self._seen):
+            for task in self._agenda:
                 operator = self._domain.operators.get(task[0])
                 if operator is None:
                     changed |= self._decompose(task)
                 else:
                     changed |= self._apply(operator, task)
         self._close()
+
+    def _look_at(self, tasks: Iterable[Task]) -> None:
+        for task in tasks:
+            if task not in self._seen:
+                self._seen.add(task)
+                self._agenda.append(task)
 
     def _count(self) -> None:
         self._bindings += 1
@@ -177,8 +188,7 @@ class _Relaxation:
                     if subtasks not in found:
                         found[subtasks] = None
                         changed = True
-                        for subtask in subtasks:
-                            self._seen.setdefault(subtask)
+                        self._look_at(subtasks)
         return changed
 
     def _close(self) -> None:
