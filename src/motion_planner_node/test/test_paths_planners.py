@@ -133,8 +133,10 @@ def test_unknown_names_are_refused_with_the_list() -> None:
 
 
 def test_a_simplifier_that_breaks_paths_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
-    def through_the_wall(query: Query, path: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.array([path[0], (30.0, 20.0, 0.0), path[-1]])
+    def through_the_wall(
+        query: Query, path: NDArray[np.float64], length: float
+    ) -> tuple[NDArray[np.float64], float]:
+        return np.array([path[0], (30.0, 20.0, 0.0), path[-1]]), length
 
     scene = scene_of(WALL)
     honest = plan_path(scene, CAR, START, [GOALS[1]], 1, never)

@@ -7,7 +7,7 @@ from math import hypot, pi, remainder, tau
 import pytest
 
 from motion_planner_node.planner import MotionPlanner
-from motion_planner_node.planning import stream
+from motion_planner_node.planning import pool
 from motion_planner_node.requests import GeometricAnswer, GeometricRequest
 from motion_planner_node.robots.motion import Attitude, Motion
 from motion_planner_node.robots.robot import Robot
@@ -36,7 +36,7 @@ def test_it_stays_without_a_search(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_arguments: object, **_options: object) -> None:
         raise AssertionError('destinations were searched for')
 
-    monkeypatch.setattr(stream, 'destinations', refuse)
+    monkeypatch.setattr(pool, 'destinations_by_travel', refuse)
     answer = answered(0)
     assert answer.motion == Motion('r', START)
     assert answer.end == {'r': START}

@@ -50,8 +50,8 @@ class PaperStream(Stream):
 
     def _find_path(self, state: Array) -> Way | None:
         self._number += 1
-        self._candidates = self._numbered(self._number, state[None, :])
-        return None if self._has_failed else self._plan(self._candidates, None)
+        only = self._only(self._number, state[None, :])
+        return None if self._has_failed else self._plan(only, None)
 
     def _restart(self) -> None:
         self._number = 0

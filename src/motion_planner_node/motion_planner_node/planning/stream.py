@@ -23,6 +23,7 @@ from motion_planner_node.planning.candidates import (
     row_of,
 )
 from motion_planner_node.planning.ground import Ground
+from motion_planner_node.planning.pool import Pool
 from motion_planner_node.planning.problem import Problem
 from motion_planner_node.planning.proofs import (
     Impossible,
@@ -33,10 +34,6 @@ from motion_planner_node.planning.proofs import (
 from motion_planner_node.planning.tried import Tried
 from motion_planner_node.robots.driving import end_of
 from motion_planner_node.robots.motion import Attitude, Motion
-from motion_planner_node.satisfaction import descend, destinations_by_travel
-
-#: Destinations that are as near as this [m] and [rad] are the same one, found again.
-SAME = 1e-3
 
 #: Alternatives first have to differ by this much of all that they can, then by less and less.
 SHARES = (0.5, 0.25, 0.125, 0.0)
@@ -53,9 +50,6 @@ class Found:
 
 #: A dead end is taken when others are farther away by this factor.
 DETOUR = 1.3
-#: Rounds of destinations after which it is taken then.
-ROUNDS_FOR_OTHERS = 2
-
 #: Tells the randomness of paths from that of destinations.
 FOR_PATHS = 1
 
@@ -94,18 +88,20 @@ class Stream:
         self._ground = ground
         self._parameters = parameters
         self._seed = seed
-        #: The connected part of the free space that the start is in.
-        self._here = ground.part_of(problem.start)
         self._restart()
 
     def _restart(self) -> None:
         self.tried = Tried(self._problem.agent)
         self._found: list[Found] = []
-        self._candidates = NO_CANDIDATES
-        self._rounds = 0
+        self._pool = Pool(
+            self._problem,
+            self._ground,
+            self._parameters,
+            self._seed,
+            self._note,
+            self._check_time,
+        )
         self._share = SHARES[0]
-        self._spread = 0.0
-        self._seen = np.empty((0, 3))
         self._failures = 0
         #: Whether a close look at all that the start leads to has found no destination.
         self._is_shut_in = False
@@ -139,7 +135,7 @@ class Stream:
     def _preferred_first(self) -> Iterator[Found]:
         way = self._to_preferred()
         # What was tried on the way leaves no trace: all else is as without a preferred end.
-        self._candidates = NO_CANDIDATES
+        self._pool.candidates = NO_CANDIDATES
         self.tried = Tried(self._problem.agent)
         self._failures = 0
         if way:
@@ -152,15 +148,16 @@ class Stream:
         if end is None or not self._problem.program.holds_at(end):
             return None
         row = row_of(end)
-        if not (self._ground.is_free(row)[0] and self._ground.part_of(end) == self._here):
+        if not (self._ground.is_free(row)[0] and self._pool.is_near(row)[0]):
             return None
-        self._candidates = self._numbered(0, row)
-        return self._plan(self._candidates, None)
+        return self._plan(self._only(0, row), None)
 
-    def _numbered(self, number: int, row: Array) -> Candidates:
-        """One candidate (1, 3), whatever is beyond it."""
+    def _only(self, number: int, row: Array) -> Candidates:
+        """One candidate (1, 3) in place of all that were known, whatever is beyond it."""
         lengths = self._ground.estimates(self._problem.start, row)
-        return Candidates(np.array([number]), row, lengths, np.zeros(1, np.bool_))
+        only = Candidates(np.array([number]), row, lengths, np.zeros(1, np.bool_))
+        self._pool.candidates = only
+        return only
 
     def _generate(self) -> Iterator[Found]:
         start = self._problem.start
@@ -168,9 +165,9 @@ class Stream:
             # Nothing is nearer than here; other destinations are for those who ask for them.
             stay = Motion(self._problem.agent, self._problem.start)
             yield self._answer((stay, self._problem.start))
-        while self._rounds < self._parameters.rounds:
-            self._add_candidates()
-            if self._rounds == 1 and not len(self._candidates) and not self._found:
+        while self._pool.rounds < self._parameters.rounds:
+            self._pool.look_everywhere()
+            if self._pool.rounds == 1 and not len(self._pool.candidates) and not self._found:
                 self.proof = self._prove()
                 if self.proof:
                     return
@@ -192,17 +189,17 @@ class Stream:
         """A motion to a new candidate from where there is a way on, or one that is far shorter.
 
         A dead end is taken when the motion into it is shorter than those to all others by `DETOUR`,
-        also when others have been looked for once more.
+        also when others have been looked for beside it.
         """
         way, is_dead_end = self._best_way()
-        while is_dead_end and self._rounds < min(ROUNDS_FOR_OTHERS, self._parameters.rounds):
-            self._add_candidates()
-            way, is_dead_end = self._best_way()
+        if way is not None and is_dead_end:
+            self._pool.look_beside(way[1])
+            way, _ = self._best_way()
         return way
 
     def _best_way(self) -> tuple[Way | None, bool]:
         """A motion to a new candidate, and whether that is a dead end."""
-        new = self._candidates.where(self._are_new(self._candidates.rows))
+        new = self._pool.candidates.where(self._are_new(self._pool.candidates.rows))
         open_ends = new.where(~new.dead_ends)
         way = self._plan(open_ends, self._region(dead_end=False)) if len(open_ends) else None
         longest = inf if way is None else way[0].length
@@ -226,49 +223,6 @@ class Stream:
         tried, self.tried = self.tried, Tried(self._problem.agent)
         self._failures, self._is_shut_in = 0, False
         return Found(*way, tried)
-
-    def _add_candidates(self) -> None:
-        """Look for destinations, and keep those that the robot can stand in and may get to."""
-        self._check_time()
-        ground, start = self._ground, self._problem.start
-        rows, lengths = destinations_by_travel(
-            self._problem.program,
-            start,
-            ground.scene.world.bounds,
-            np.random.default_rng([self._seed, self._rounds]),
-            self._parameters.destinations,
-            ground.room,
-            ground.travel_from(start),
-        )
-        self._rounds += 1
-        if not len(rows):
-            return
-        self._spread = max(self._spread, float(np.ptp(rows[:, :2], axis=0).max()))
-        if len(self._seen):
-            # Those of one round differ from each other.
-            new = are_apart(rows, self._seen, SAME, SAME)
-            rows, lengths = rows[new], lengths[new]
-        numbers = np.arange(1, len(rows) + 1) + len(self._seen)
-        self._seen = np.concatenate((self._seen, rows))
-        is_free = ground.is_free(rows)
-        is_near = is_free & (ground.parts_of(rows) == self._here)
-        if not is_near.all():
-            self._note_out_of_reach(rows[~is_near], is_free[~is_near])
-            rows, lengths, numbers = rows[is_near], lengths[is_near], numbers[is_near]
-        dead_ends = ~ground.can_turn_round(rows, self._check_time)
-        dead_ends &= (rows != row_of(start)).any(axis=1)
-        more = Candidates(numbers, rows, lengths, dead_ends)
-        self._candidates = self._candidates.and_more(more)
-
-    def _note_out_of_reach(self, rows: Array, are_free: NDArray[np.bool_]) -> None:
-        """Note destinations (n, 3) that are in obstacles, or walled off."""
-        for row, is_free in zip(rows, are_free.tolist(), strict=True):
-            attitude = attitude_of(row)
-            if is_free:
-                self.tried.add(attitude, AttemptResult.NO_PATH, 'walled off from the start')
-            else:
-                trouble = self._ground.trouble(attitude)
-                self.tried.add(attitude, AttemptResult.IN_OBSTACLE, trouble)
 
     def _plan(
         self, candidates: Candidates, region: Region | None, longest: float = inf
@@ -310,7 +264,7 @@ class Stream:
             self.tried.add(end, AttemptResult.NOT_SATISFIED, reason)
             if result.goal_index >= 0:
                 wrong = left.where(np.array([result.goal_index]))
-                self._candidates = self._candidates.without(wrong)
+                self._pool.candidates = self._pool.candidates.without(wrong)
                 left = left.without(wrong)
             else:
                 region = None
@@ -320,22 +274,18 @@ class Stream:
         self._failures += len(candidates)
         for row in candidates.rows:
             self.tried.add(attitude_of(row), result, reason)
-        self._candidates = self._candidates.without(candidates)
+        self._pool.candidates = self._pool.candidates.without(candidates)
 
     def _region(self, *, dead_end: bool) -> Region:
         """Further destinations near attitudes: new ones, and no dead end unless that is wanted."""
 
         def region(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-            ground = self._ground
-            descent = descend(self._problem.program, rows, room=ground.room)
-            states = descent.states[descent.satisfied]
-            states = states[ground.is_free(states)] if len(states) else states
+            states = self._pool.near(rows)
             if not len(states):
                 return states
-            good = ground.parts_of(states) == self._here
+            good = self._are_new(states)
             if not dead_end:
-                good &= ground.can_turn_round(states, self._check_time)
-            good &= self._are_new(states)
+                good &= self._pool.has_way_on(states)
             return np.ascontiguousarray(states[good])
 
         return region
@@ -345,10 +295,13 @@ class Stream:
         if not self._found:
             return np.ones(len(rows), np.bool_)
         parameters, share = self._parameters, self._share
-        far = max(parameters.alternative_distance, share * self._spread)
+        far = max(parameters.alternative_distance, share * self._pool.spread)
         turned = max(parameters.alternative_heading, share * pi)
         ends = np.concatenate([row_of(found.end) for found in self._found])
         return are_apart(rows, ends, far, turned)
+
+    def _note(self, destination: Attitude, result: AttemptResult, reason: str) -> None:
+        self.tried.add(destination, result, reason)
 
     def _check_time(self) -> None:
         if self._should_stop():
