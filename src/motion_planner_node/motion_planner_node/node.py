@@ -56,7 +56,8 @@ class MotionPlannerNode(Node):
     Parameters
         the table in `parameters.py` (docs/parameters.md)
     Publishers
-        ``planning_events`` (geohtn_msgs/PlanningEvent): each exchange, in the order answered
+        ``planning_events`` (geohtn_msgs/PlanningEvent): each exchange, in the order answered, while
+        somebody listens
     Services
         ``satisfy_preconditions``, ``advise``, ``cancel_request``, ``check_preconditions``,
         ``sample_motion``, ``set_world``, ``get_world``
@@ -120,15 +121,16 @@ class MotionPlannerNode(Node):
         except MotionPlannerError as error:
             answer = refused(error, self._worlds.revision)
         response.answer = conversions.answer_to_msg(answer, asked, perf_counter() - started)
-        self._events.publish(
-            msg.PlanningEvent(
-                kind=msg.PlanningEvent.REQUEST,
-                received=received.to_msg(),
-                answered=self.get_clock().now().to_msg(),
-                request=[asked],
-                answer=[response.answer],
+        if self._is_watched:
+            self._events.publish(
+                msg.PlanningEvent(
+                    kind=msg.PlanningEvent.REQUEST,
+                    received=received.to_msg(),
+                    answered=self.get_clock().now().to_msg(),
+                    request=[asked],
+                    answer=[response.answer],
+                )
             )
-        )
         self._log_answer(asked, answer)
         return response
 
@@ -144,16 +146,22 @@ class MotionPlannerNode(Node):
             response.answer = conversions.advice_error_to_msg(
                 error, asked, self._worlds.revision, perf_counter() - started
             )
-        self._events.publish(
-            msg.PlanningEvent(
-                kind=msg.PlanningEvent.ADVICE,
-                received=received.to_msg(),
-                answered=self.get_clock().now().to_msg(),
-                advice_request=[asked],
-                advice_answer=[response.answer],
+        if self._is_watched:
+            self._events.publish(
+                msg.PlanningEvent(
+                    kind=msg.PlanningEvent.ADVICE,
+                    received=received.to_msg(),
+                    answered=self.get_clock().now().to_msg(),
+                    advice_request=[asked],
+                    advice_answer=[response.answer],
+                )
             )
-        )
         return response
+
+    @property
+    def _is_watched(self) -> bool:
+        """Whether anybody hears of events: making them takes time in which the answer waits."""
+        return bool(self._events.get_subscription_count())
 
     def _answer(self, asked: msg.GeometricRequest) -> GeometricAnswer:
         planner = self._worlds.current()
