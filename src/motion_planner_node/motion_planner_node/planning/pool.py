@@ -37,6 +37,7 @@ class Pool:
 
     Attributes:
         candidates: those that may still be driven to
+        known: (n, 3) all that the robot can stand in and is not walled off from
         rounds: how often they were looked for all over the map
         spread: how far [m] they are from each other at most
     """
@@ -60,6 +61,7 @@ class Pool:
         self._here = ground.part_of(problem.start)
         self._seen = np.empty((0, 3))
         self.candidates = NO_CANDIDATES
+        self.known = np.empty((0, 3))
         self.rounds = 0
         self.spread = 0.0
 
@@ -123,6 +125,7 @@ class Pool:
         if not is_near.all():
             self._note_out_of_reach(rows[~is_near], is_free[~is_near])
             rows, lengths, numbers = rows[is_near], lengths[is_near], numbers[is_near]
+        self.known = np.concatenate((self.known, rows))
         more = Candidates(numbers, rows, lengths, ~self.has_way_on(rows))
         self.candidates = self.candidates.and_more(more)
 

@@ -22,6 +22,7 @@ from motion_planner_node.planning.candidates import (
     attitude_of,
     row_of,
 )
+from motion_planner_node.planning.confined import confined, unapproachable
 from motion_planner_node.planning.ground import Ground
 from motion_planner_node.planning.pool import Pool
 from motion_planner_node.planning.problem import Problem
@@ -128,7 +129,7 @@ class Stream:
                     break
                 self._found.append(found)
             if not self._found and self.proof is None:
-                self.proof = blocked_ahead(self._problem, self._ground)
+                self.proof = self._prove_after_all()
         self._broken = False
         return self._found[alternative] if alternative < len(self._found) else None
 
@@ -218,6 +219,12 @@ class Stream:
         hopeful = hopeful_cells(self._problem, self._ground)
         proof = walled_off(self._problem, self._ground, hopeful)
         return proof or no_attitude(self._problem, self._ground)
+
+    def _prove_after_all(self) -> Impossible | None:
+        """What may be proven when all that was tried was in vain: how little room there is to turn."""
+        problem, ground = self._problem, self._ground
+        proof = blocked_ahead(problem, ground) or confined(problem, ground, self._check_time)
+        return proof or unapproachable(problem, ground, self._pool.known, self._check_time)
 
     def _answer(self, way: Way) -> Found:
         tried, self.tried = self.tried, Tried(self._problem.agent)
