@@ -43,13 +43,15 @@ def draw_curve(curve: Mapping[str, Any], path: Path) -> None:
         'C0o-',
         label='motion planner',
     )
-    for name, point in ours.items():
+    # One above the other, as the points are near each other.
+    for number, (name, point) in enumerate(ours.items()):
         axes.annotate(
             name,
             (point['milliseconds'], point['ratio']),
             textcoords='offset points',
-            xytext=(4, 5),
+            xytext=(8, 12 * (number + 1)),
             fontsize=8,
+            arrowprops={'arrowstyle': '-', 'linewidth': 0.5},
         )
     axes.set(
         xscale='log',

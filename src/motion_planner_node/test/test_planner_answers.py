@@ -11,6 +11,7 @@ import pytest
 from motion_planner_node.codes import AttemptResult, Code, Scope, Status
 from motion_planner_node.parameters import Parameters
 from motion_planner_node.planner import MotionPlanner
+from motion_planner_node.planning.stream import Stream
 from motion_planner_node.requests import GeometricAnswer, GeometricRequest
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.world import read_world
@@ -209,12 +210,24 @@ def test_what_is_in_the_way_is_named_for_margins_and_footprints_too() -> None:
     )
 
 
-def test_a_pocket_too_small_to_turn_in_is_unknown_and_not_impossible() -> None:
-    text = (
-        '((agent rover0)(object pocket)(distance(rover0, pocket) <= 2)'
-        '(rover0.heading >= -1.7)(rover0.heading <= -1.4))'
-    )
-    answer = ask(text)
+#: To stand in a pocket that is too small to turn in, facing its mouth.
+IN_POCKET = (
+    '((agent rover0)(object pocket)(distance(rover0, pocket) <= 2)'
+    '(rover0.heading >= -1.7)(rover0.heading <= -1.4))'
+)
+
+
+def test_a_pocket_too_small_to_turn_in_is_out_of_reach() -> None:
+    answer = ask(IN_POCKET)
+    assert (answer.code, answer.scope) == (Code.UNREACHABLE, Scope.THIS_START)
+    assert 'there is no room to turn into it with a radius of' in answer.message
+
+
+def test_without_a_proof_a_pocket_is_unknown_and_not_impossible(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(Stream, '_prove_after_all', lambda _: None)
+    answer = MotionPlanner(PLANNER.world).satisfy(GeometricRequest(IN_POCKET, START))
     assert answer.code is Code.NO_PATH
     assert answer.attempts
     assert {attempt.result for attempt in answer.attempts} <= {

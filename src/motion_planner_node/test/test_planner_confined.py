@@ -95,7 +95,7 @@ def _proofs_everywhere() -> object:
         yield
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(st.one_of(walls, st.builds(pen, st.floats(4.0, 16.0))), starts, st.integers(0, 99))
 def test_no_random_drive_leaves_where_a_car_is_confined(
     walls: Walls, start: Attitude, seed: int
@@ -117,7 +117,7 @@ def test_no_random_drive_leaves_where_a_car_is_confined(
         assert (np.abs(np.remainder(heading - middle + pi, tau) - pi) <= half).any()
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(
     st.one_of(walls, st.builds(pen, st.floats(4.0, 16.0))),
     st.lists(starts, min_size=4, max_size=4),

@@ -43,9 +43,9 @@ from motion_planner_node.satisfaction.branch_and_prune import possible
 
 #: Cells of place and heading that are looked at before a proof is given up, and between two looks
 #: at the clock.
-MOST_CELLS, CHUNK = 60_000, 500
+MOST_CELLS, CHUNK = 20_000, 2_000
 #: Boxes of destinations, and cells that cover them, from which a car is followed backwards at most.
-MOST_BOXES, MOST_ROOTS = 4_000, 20_000
+MOST_BOXES, MOST_ROOTS = 4_000, 10_000
 
 
 #: Raises Stopped when the work has to stop.
