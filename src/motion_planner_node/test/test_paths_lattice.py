@@ -40,7 +40,7 @@ def test_a_search_that_runs_out_of_room_goes_on_in_a_larger_one(rooms: tuple[int
     field = field_of(SCENE.free_space(CAR.body).distance_from(56.0, 24.0))
     grain = Grain(np.zeros(2), 0.35 * CAR.turning_radius, 24, 1.1)
     moves = moves_of(CAR, 0.4 * CAR.turning_radius, 0.3, (1.0,))
-    task = Task(goal, 1.0, moves, np.abs(moves[:, 1]))
+    task = Task(goal, 1.0, moves, np.abs(moves[:, 1]), any_word=True)
 
     whole = new_lattice(rooms[-1], np.inf, 200)
     plant(whole, frame, field, grain, task, start, np.zeros(1))

@@ -13,7 +13,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from motion_planner_node.paths.edges import Frame, Row, Rows, shortest_length, shortest_word_if_free
+from motion_planner_node.paths.edges import (
+    Frame,
+    Row,
+    Rows,
+    free_word,
+    shortest_length,
+    shortest_word_if_free,
+)
 from motion_planner_node.paths.field import Field, field_at
 from motion_planner_node.paths.open_list import OpenList, empty_open_list, pop, push
 from motion_planner_node.robots.arcs import advance
@@ -49,12 +56,14 @@ class Task(NamedTuple):
     sign: 1 for ways from the roots to the target, -1 for ways from the target to the roots.
     moves: (m, 4) pieces that the robot can drive in a step.
     prices: (m,) what they cost [m].
+    any_word: whether the last stretch to the target may be any word, not only the shortest one.
     """
 
     target: Row
     sign: float
     moves: Rows
     prices: Row
+    any_word: bool
 
 
 class Lattice(NamedTuple):
@@ -203,10 +212,11 @@ def plant(
 
 @kernel
 def _shot(frame: Frame, task: Task, here: Row, longest: float, pieces: Rows) -> float:
-    """Length [m] of the shortest free word between ``here`` and the target, infinite for none."""
-    if task.sign > 0.0:
-        return shortest_word_if_free(frame, here, task.target, longest, pieces)
-    return shortest_word_if_free(frame, task.target, here, longest, pieces)
+    """Length [m] of the shortest word between ``here`` and the target, infinite where it is not free."""
+    start, end = (here, task.target) if task.sign > 0.0 else (task.target, here)
+    if task.any_word:
+        return free_word(frame, start, end, longest, pieces)[0]
+    return shortest_word_if_free(frame, start, end, longest, pieces)
 
 
 @kernel

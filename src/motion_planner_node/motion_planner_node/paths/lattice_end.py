@@ -48,6 +48,7 @@ class Level(NamedTuple):
     headings: that are told apart.
     weight: as `lattice.Grain` has it.
     effort: how many of the budget's attitudes it may look at.
+    any_word: as in `Task`.
     """
 
     turn: float
@@ -55,6 +56,7 @@ class Level(NamedTuple):
     headings: int
     weight: float
     effort: int
+    any_word: bool
 
 
 class Roots(NamedTuple):
@@ -115,7 +117,7 @@ class End:
         step = level.turn * unit
         moves = moves_of(robot, step, 2.0 * pi / level.headings, LEAPS)
         prices = np.abs(moves[:, 1]) + TURN_PRICE * step * np.abs(moves[:, 3])
-        self._task = Task(target, sign, moves, prices)
+        self._task = Task(target, sign, moves, prices, level.any_word)
         #: Attitudes that there may be, and by how many one look at most adds to them.
         self._most = level.effort * query.budget.attitudes + len(roots.rows)
         self._step = CHUNK * len(moves)

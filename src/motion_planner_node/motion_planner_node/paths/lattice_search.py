@@ -23,9 +23,9 @@ from motion_planner_node.paths.query import Query
 
 #: Attitudes that are expanded from one end before it is the other's turn; then twice as many.
 FIRST_TURN = 500
-COARSE = Level(0.4, 0.35, 24, 1.1, 1)
-FINE = Level(0.2, 0.15, 48, 1.2, 4)
-FINEST = Level(0.1, 0.06, 96, 1.2, 4)
+COARSE = Level(0.4, 0.35, 24, 1.1, 1, any_word=False)
+FINE = Level(0.2, 0.15, 48, 1.2, 4, any_word=True)
+FINEST = Level(0.1, 0.06, 96, 1.2, 4, any_word=True)
 #: Attitudes that a finer search may expand to find the way out, one after the other.
 WAYS_OUT = (500, 1500, 6000)
 #: Attitudes of a fine search, all that there are, below which it is made finer still.

@@ -28,7 +28,7 @@ HEADINGS = 144
 #: How far [turning radii] the car drives at a time.
 STRIDE = 0.3
 #: Cells on a side of the window that is looked at.
-WINDOW = 192
+WINDOW = 128
 #: Cells are no wider than these shares of the turning radius and of the clearance that is needed,
 #: and places along a stride are no farther apart than that of the clearance: walls are not overlooked.
 OF_RADIUS, OF_CLEARANCE, APART = 1.0 / 12.0, 0.5, 0.75
@@ -65,7 +65,7 @@ class Search(NamedTuple):
     cells: (most, 3) that are reached, by both axes and heading; (0, 0, 0) is in the middle.
     waiting: (most,) numbers of those from which the car was not followed yet.
     sizes: (2,) how many there are of both.
-    seen: (window, window, headings) cells that are reached, or that have no room.
+    seen: (window, window, headings / 8) a bit for each cell that is reached, or that has no room.
     room: (2 window, 2 window) clearances [m] in the middles of quarters of cells, not a number where
         not known yet.
     """
@@ -73,7 +73,7 @@ class Search(NamedTuple):
     cells: NDArray[np.int64]
     waiting: NDArray[np.int64]
     sizes: NDArray[np.int64]
-    seen: NDArray[np.bool_]
+    seen: NDArray[np.uint8]
     room: Array
 
 
@@ -153,8 +153,10 @@ def new_search(roots: NDArray[np.int64], most: int) -> Search:
     """A search from different cells ``roots`` (k, 3) in the window, that ends at ``most`` cells."""
     cells, waiting = np.empty((most, 3), np.int64), np.empty(most, np.int64)
     cells[: len(roots)], waiting[: len(roots)] = roots, np.arange(len(roots))
-    seen = np.zeros((WINDOW, WINDOW, HEADINGS), np.bool_)
-    seen[roots[:, 0] + WINDOW // 2, roots[:, 1] + WINDOW // 2, roots[:, 2]] = True
+    seen = np.zeros((WINDOW, WINDOW, HEADINGS // 8), np.uint8)
+    rows, columns = roots[:, 0] + WINDOW // 2, roots[:, 1] + WINDOW // 2
+    bits = np.left_shift(1, roots[:, 2] % 8).astype(np.uint8)
+    np.bitwise_or.at(seen, (rows, columns, roots[:, 2] // 8), bits)
     sizes = np.array([len(roots), len(roots)], np.int64)
     return Search(cells, waiting, sizes, seen, np.full((2 * WINDOW, 2 * WINDOW), np.nan))
 
@@ -199,14 +201,15 @@ def _reach(
 ) -> bool:
     """Take the cells of one heading that a box meets; whether they are in the window, and not too many."""
     side, half_window = view.side, WINDOW // 2
+    bit = np.uint8(1 << (heading % 8))
     for i in range(floor(low_u / side + 0.5), floor(high_u / side + 0.5) + 1):
         for j in range(floor(low_v / side + 0.5), floor(high_v / side + 0.5) + 1):
             row, column = i + half_window, j + half_window
             if not (0 <= row < WINDOW and 0 <= column < WINDOW):
                 return False
-            if search.seen[row, column, heading]:
+            if search.seen[row, column, heading // 8] & bit:
                 continue
-            search.seen[row, column, heading] = True
+            search.seen[row, column, heading // 8] |= bit
             u, v = (i - 0.5) * side, (j - 0.5) * side
             if not _may_be_free(shapes, view, search.room, u, u + side, v, v + side):
                 continue
