@@ -12,6 +12,7 @@ from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
+from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 
 from motion_planner_node import conversions
@@ -121,16 +122,7 @@ class MotionPlannerNode(Node):
         except MotionPlannerError as error:
             answer = refused(error, self._worlds.revision)
         response.answer = conversions.answer_to_msg(answer, asked, perf_counter() - started)
-        if self._is_watched:
-            self._events.publish(
-                msg.PlanningEvent(
-                    kind=msg.PlanningEvent.REQUEST,
-                    received=received.to_msg(),
-                    answered=self.get_clock().now().to_msg(),
-                    request=[asked],
-                    answer=[response.answer],
-                )
-            )
+        self._tell(msg.PlanningEvent.REQUEST, received, request=[asked], answer=[response.answer])
         self._log_answer(asked, answer)
         return response
 
@@ -146,22 +138,23 @@ class MotionPlannerNode(Node):
             response.answer = conversions.advice_error_to_msg(
                 error, asked, self._worlds.revision, perf_counter() - started
             )
-        if self._is_watched:
-            self._events.publish(
-                msg.PlanningEvent(
-                    kind=msg.PlanningEvent.ADVICE,
-                    received=received.to_msg(),
-                    answered=self.get_clock().now().to_msg(),
-                    advice_request=[asked],
-                    advice_answer=[response.answer],
-                )
-            )
+        self._tell(
+            msg.PlanningEvent.ADVICE,
+            received,
+            advice_request=[asked],
+            advice_answer=[response.answer],
+        )
         return response
 
-    @property
-    def _is_watched(self) -> bool:
-        """Whether anybody hears of events: making them takes time in which the answer waits."""
-        return bool(self._events.get_subscription_count())
+    def _tell(self, kind: int, received: Time, **exchange: object) -> None:
+        """Publish an exchange, if anybody listens: making the event takes time in which the answer waits."""
+        if self._events.get_subscription_count():
+            answered = self.get_clock().now().to_msg()
+            self._events.publish(
+                msg.PlanningEvent(
+                    kind=kind, received=received.to_msg(), answered=answered, **exchange
+                )
+            )
 
     def _answer(self, asked: msg.GeometricRequest) -> GeometricAnswer:
         planner = self._worlds.current()

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from math import cos, hypot, pi, sin, tan
+from math import hypot, pi, tan
 
-import numpy as np
-import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -18,50 +16,22 @@ from motion_planner_node.planning.problem import read_problem
 from motion_planner_node.requests import AdviceRequest, GeometricRequest
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.robots.robot import Robot
-from motion_planner_node.world.model import Bounds, Polygon, World, WorldObject
+from motion_planner_node.world.model import Bounds, World, WorldObject
 from motion_planner_node.world.scene import Scene
+from tests.support.random_drives import Drives, Wall, walls_of
 
 CAR = Robot('car', 8.0, 0.5, 1.0, 2.0)
 BEND = tan(0.5) / 8.0
 SIDE = 60.0
-STEP, DRIVES, STEPS = 0.25, 60, 400
+DRIVES = Drives(CAR.radius, BEND, step=0.25, number=60, steps=400, held=(4, 60))
 
 boxes = st.tuples(*[st.floats(0.0, SIDE)] * 2, *[st.floats(1.0, 25.0)] * 2)
 starts = st.builds(Attitude, st.floats(2.0, 58.0), st.floats(2.0, 58.0), st.floats(-pi, pi))
 
 
-def world_of(walls: list[tuple[float, ...]], x: float, y: float) -> World:
-    obstacles = tuple(
-        Polygon(f'wall{k}', ((a, b), (a + w, b), (a + w, b + h), (a, b + h)))
-        for k, (a, b, w, h) in enumerate(walls)
-    )
+def world_of(walls: list[Wall], x: float, y: float) -> World:
     post = {'post': WorldObject('post', {'x': x, 'y': y})}
-    return World('', '', Bounds(0.0, 0.0, SIDE, SIDE), post, obstacles, {'car': CAR})
-
-
-def places_driven_to(world: World, start: Attitude, seed: int) -> list[tuple[float, float]]:
-    """Where random drives get to until they hit something, by steps of the kinematic equations."""
-    room = shapely.box(0.0, 0.0, SIDE, SIDE)
-    for wall in world.obstacles:
-        assert isinstance(wall, Polygon)
-        room = room.difference(shapely.Polygon(wall.corners))
-    room = room.buffer(-CAR.radius + 1e-6)
-    shapely.prepare(room)
-    random, places = np.random.default_rng(seed), []
-    for _ in range(DRIVES):
-        x, y, heading, bend = start.x, start.y, start.heading, 0.0
-        for step in range(STEPS):
-            if step % int(random.integers(4, 60)) == 0:
-                bend = BEND * float(random.integers(-1, 2))
-            x, y = (
-                x + STEP * cos(heading + 0.5 * STEP * bend),
-                y + STEP * sin(heading + 0.5 * STEP * bend),
-            )
-            heading += STEP * bend
-            if not shapely.contains_xy(room, x, y):
-                break
-            places.append((x, y))
-    return places
+    return World('', '', Bounds(0.0, 0.0, SIDE, SIDE), post, walls_of(walls), {'car': CAR})
 
 
 @settings(max_examples=60, deadline=None)
@@ -73,7 +43,7 @@ def places_driven_to(world: World, start: Attitude, seed: int) -> list[tuple[flo
     st.integers(0, 99),
 )
 def test_no_random_drive_refutes_the_proof(
-    walls: list[tuple[float, ...]], start: Attitude, x: float, y: float, seed: int
+    walls: list[Wall], start: Attitude, x: float, y: float, seed: int
 ) -> None:
     world = world_of(walls, x, y)
     text = '((agent car)(object post)(distance(car, post) <= 6))'
@@ -81,8 +51,8 @@ def test_no_random_drive_refutes_the_proof(
     ground = Ground(Scene(world), CAR)
     if ground.trouble(start) or blocked_ahead(problem, ground) is None:
         return
-    reached = places_driven_to(world, start, seed)
-    assert all(hypot(a - x, b - y) > 6.0 for a, b in reached)
+    reached = DRIVES.attitudes(world, [start], seed)
+    assert all(hypot(a - x, b - y) > 6.0 for a, b, _ in reached)
 
 
 def test_a_car_that_faces_a_wall_is_told_so() -> None:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from math import cos, pi, remainder, sin, tan, tau
+from math import pi, tan, tau
 
 import numpy as np
 import pytest
-import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
 from motion_planner_node.codes import Code, Scope, Status
 from motion_planner_node.errors import Stopped
@@ -22,16 +20,16 @@ from motion_planner_node.planning.problem import read_problem
 from motion_planner_node.requests import GeometricRequest
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.robots.robot import Robot
-from motion_planner_node.world.model import Bounds, Polygon, World
+from motion_planner_node.world.model import Bounds, World
 from motion_planner_node.world.scene import Scene
+from tests.support.random_drives import Drives, Wall, walls_of
 
 CAR = Robot('car', 4.0, 0.5, 1.0, 2.0)
 BEND = tan(0.5) / 4.0
 SIDE = 40.0
-STEP, DRIVES, STEPS = 0.2, 80, 300
+DRIVES = Drives(CAR.radius, BEND, step=0.2, number=80, steps=300, held=(2, 40))
 NOWHERE = np.empty((0, 3))
 
-Walls = list[tuple[float, float, float, float]]
 walls = st.lists(
     st.tuples(*[st.floats(0.0, SIDE)] * 2, *[st.floats(0.5, 20.0)] * 2), min_size=2, max_size=7
 )
@@ -40,8 +38,8 @@ starts = st.builds(
 )
 
 
-def pen(side: float, gap: float = 2.6) -> Walls:
-    """Walls round a square in the middle, with a gap in the right one at the top."""
+def pen(side: float, gap: float = 2.6) -> list[Wall]:
+    """list[Wall] round a square in the middle, with a gap in the right one at the top."""
     low, high = 0.5 * (SIDE - side), 0.5 * (SIDE + side)
     return [
         (low - 1.0, low - 1.0, side + 2.0, 1.0),
@@ -51,36 +49,9 @@ def pen(side: float, gap: float = 2.6) -> Walls:
     ]
 
 
-def world_of(walls: Walls) -> World:
-    obstacles = tuple(
-        Polygon(f'wall{k}', ((a, b), (a + w, b), (a + w, b + h), (a, b + h)))
-        for k, (a, b, w, h) in enumerate(walls)
-    )
-    return World('', '', Bounds(0.0, 0.0, SIDE, SIDE), {}, obstacles, {'car': CAR})
-
-
-def drives(world: World, starts: list[Attitude], seed: int) -> NDArray[np.float64]:
-    """Attitudes (n, 3) of random drives until they hit something, by small steps of the kinematic equations."""
-    room = shapely.box(0.0, 0.0, SIDE, SIDE)
-    for wall in world.obstacles:
-        assert isinstance(wall, Polygon)
-        room = room.difference(shapely.Polygon(wall.corners))
-    room = room.buffer(-CAR.radius + 1e-6)
-    shapely.prepare(room)
-    random, passed = np.random.default_rng(seed), []
-    for number in range(DRIVES):
-        start = starts[number % len(starts)]
-        x, y, heading, bend = start.x, start.y, start.heading, 0.0
-        for step in range(STEPS):
-            if step % int(random.integers(2, 40)) == 0:
-                bend = BEND * float(random.integers(-1, 2))
-            x += STEP * cos(heading + 0.5 * STEP * bend)
-            y += STEP * sin(heading + 0.5 * STEP * bend)
-            heading += STEP * bend
-            if not shapely.contains_xy(room, x, y):
-                break
-            passed.append((x, y, remainder(heading, tau)))
-    return np.array(passed).reshape(-1, 3)
+def world_of(walls: list[Wall]) -> World:
+    bounds = Bounds(0.0, 0.0, SIDE, SIDE)
+    return World('', '', bounds, {}, walls_of(walls), {'car': CAR})
 
 
 def go_on() -> None:
@@ -98,7 +69,7 @@ def _proofs_everywhere() -> object:
 @settings(max_examples=40, deadline=None)
 @given(st.one_of(walls, st.builds(pen, st.floats(4.0, 16.0))), starts, st.integers(0, 99))
 def test_no_random_drive_leaves_where_a_car_is_confined(
-    walls: Walls, start: Attitude, seed: int
+    walls: list[Wall], start: Attitude, seed: int
 ) -> None:
     world = world_of(walls)
     ground = Ground(Scene(world), CAR)
@@ -108,7 +79,7 @@ def test_no_random_drive_leaves_where_a_car_is_confined(
     reach = proofs._reach(ground, view, np.zeros((1, 3), np.int64), go_on)
     if reach is None:
         return
-    for x, y, heading in drives(world, [start], seed):
+    for x, y, heading in DRIVES.attitudes(world, [start], seed):
         is_here = (reach.low[:, :2] <= (x, y)).all(axis=1) & (reach.high[:, :2] >= (x, y)).all(
             axis=1
         )
@@ -125,7 +96,7 @@ def test_no_random_drive_leaves_where_a_car_is_confined(
     st.integers(0, 99),
 )
 def test_no_random_drive_gets_to_where_nobody_can(
-    walls: Walls, beginnings: list[Attitude], goal: Attitude, seed: int
+    walls: list[Wall], beginnings: list[Attitude], goal: Attitude, seed: int
 ) -> None:
     world = world_of(walls)
     ground = Ground(Scene(world), CAR)
@@ -145,7 +116,7 @@ def test_no_random_drive_gets_to_where_nobody_can(
         if not is_blocked and proofs.unapproachable(problem, ground, NOWHERE, go_on):
             impossible.append(start)
     if impossible:
-        passed = drives(world, impossible, seed)
+        passed = DRIVES.attitudes(world, impossible, seed)
         off = np.abs(passed - (goal.x, goal.y, goal.heading)) - (1.0, 1.0, 0.2)
         assert not (off <= -1e-6).all(axis=1).any()
 

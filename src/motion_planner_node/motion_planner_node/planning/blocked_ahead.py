@@ -20,7 +20,6 @@ from motion_planner_node.planning.problem import Problem
 from motion_planner_node.planning.proofs import Impossible, listed, wanted
 from motion_planner_node.robots.body import necessary_clearance
 from motion_planner_node.robots.motion import Attitude
-from motion_planner_node.robots.registry import MODELS
 from motion_planner_node.satisfaction.branch_and_prune import possible
 
 Array = NDArray[np.float64]
@@ -50,9 +49,9 @@ class Front(NamedTuple):
 
 def front_of(start: Attitude, ground: Ground) -> Front | None:
     """The first front ahead of the car at ``start`` of which nothing is free, if there is one."""
-    model, radius = MODELS[ground.robot.kind], ground.robot.turning_radius
-    if model.turns or model.reverses or model.slides:
+    if not ground.needs_room_to_turn:
         return None
+    radius = ground.robot.turning_radius
     needed = necessary_clearance(ground.robot.body)
     ways = np.arange(1, WAYS + 1) * (0.5 * pi * radius / WAYS)
     here = np.array([start.x, start.y])

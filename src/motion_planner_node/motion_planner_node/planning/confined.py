@@ -37,7 +37,6 @@ from motion_planner_node.planning.problem import Problem
 from motion_planner_node.planning.proofs import Impossible, listed, wanted
 from motion_planner_node.robots.body import necessary_clearance
 from motion_planner_node.robots.motion import Attitude
-from motion_planner_node.robots.registry import MODELS
 from motion_planner_node.satisfaction import branch_and_prune
 from motion_planner_node.satisfaction.branch_and_prune import possible
 
@@ -65,7 +64,7 @@ class Reach(NamedTuple):
 
 def confined(problem: Problem, ground: Ground, check_time: CheckTime) -> Impossible | None:
     """Whether the car cannot get out of where it starts, and cannot do there what it is to do."""
-    if not _needs_room(ground) or ground.can_turn_round(row_of(problem.start), check_time)[0]:
+    if not ground.needs_room_to_turn or ground.can_turn_round(row_of(problem.start), check_time)[0]:
         return None
     reach = _reach(ground, _view(ground, problem.start), np.zeros((1, 3), np.int64), check_time)
     if reach is None or _may_be_met(problem, reach):
@@ -88,7 +87,7 @@ def unapproachable(
     No proof is looked for where there is room before some of the ``known`` destinations (n, 3).
     """
     backwards = known + np.array([0.0, 0.0, pi])
-    if not _needs_room(ground) or ground.can_turn_round(backwards, check_time).any():
+    if not ground.needs_room_to_turn or ground.can_turn_round(backwards, check_time).any():
         return None
     bounds = ground.scene.world.bounds
     left = branch_and_prune(problem.program, bounds, room=ground.room, budget=MOST_BOXES)
@@ -107,11 +106,6 @@ def unapproachable(
         f'is no room to turn into it with a radius of {ground.robot.turning_radius:.4g} m',
         f'{problem.agent} only drives forward: ask for other headings or more room',
     )
-
-
-def _needs_room(ground: Ground) -> bool:
-    model = MODELS[ground.robot.kind]
-    return not (model.turns or model.reverses or model.slides)
 
 
 def _view(ground: Ground, middle: Attitude) -> View:

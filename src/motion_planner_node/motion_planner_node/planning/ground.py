@@ -15,6 +15,7 @@ from motion_planner_node.planning.steps import steps_from
 from motion_planner_node.robots.body import necessary_clearance
 from motion_planner_node.robots.driving import shortest_between
 from motion_planner_node.robots.motion import Attitude
+from motion_planner_node.robots.registry import MODELS
 from motion_planner_node.robots.robot import Robot
 from motion_planner_node.satisfaction import Room, Travel
 from motion_planner_node.world.scene import Scene
@@ -60,6 +61,12 @@ class Ground:
         self.everywhere = Pyramid(whole)
         #: Where the robot can be in some heading, for descents and proofs.
         self.room = Room(scene.shapes, necessary_clearance(robot.body))
+
+    @property
+    def needs_room_to_turn(self) -> bool:
+        """Whether the robot only drives forward, and so turns round nowhere but on a circle."""
+        model = MODELS[self.robot.kind]
+        return not (model.turns or model.reverses or model.slides)
 
     def is_free(self, states: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Which of the attitudes (n, 3) the robot can stand in, shape (n,)."""
