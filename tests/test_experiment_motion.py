@@ -16,7 +16,8 @@ from experiments.motion import reference
 from experiments.motion.aims import Aim, heading_error, in_goal
 from experiments.motion.asking import Outcome, ask, planner_for, request_of
 from experiments.motion.checking import Checker, constraints_of
-from experiments.motion.geometry import dubins_length, free_word
+from experiments.motion.connected import Parts
+from experiments.motion.geometry import dubins_length, free_word, make_ground
 from experiments.motion.goals import AGENT, FIXED, FREE, TOWARDS, Goal, Ring
 from experiments.motion.lattice import Lattice
 from experiments.motion.peers import Usual
@@ -107,6 +108,17 @@ def test_the_reference_finds_the_same_again(
         assert told['text'] == known.text
         assert tuple(told['start']) == known.start
         assert told['length'] == pytest.approx(known.length, rel=1e-3)
+
+
+@pytest.mark.parametrize(('gate', 'is_wide'), [(1.8, False), (2.02, True), (2.4, True)])
+def test_walls_part_a_world_where_the_disc_does_not_fit_through(gate: float, is_wide: bool) -> None:
+    bounds = np.array([0.0, 0.0, 40.0, 30.0])
+    edges = np.array([[20.0, 0.0, 20.0, 11.3], [20.0, 11.3 + gate, 20.0, 30.0]])
+    ground = make_ground(bounds, edges, np.empty((0, 3)), disc=1.0, radius=3.0)
+    goal = Goal((Ring('tree', 32.0, 7.0, 0.0, 2.0),), FREE)
+    aim = Aim(*goal.numbers, np.empty((0, 3)))
+    assert Parts(ground).are_joined(np.array([5.0, 5.0, 0.0]), aim) == is_wide
+    assert Parts(ground).are_joined(np.array([25.0, 25.0, 0.0]), aim)
 
 
 def test_polished_ways_are_free_shorter_and_in_the_goal(

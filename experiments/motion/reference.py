@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from experiments.motion.aims import Aim
+from experiments.motion.connected import Parts
 from experiments.motion.grounds import BINS, FINER_BINS, lattice_of
 from experiments.motion.lattice import Lattice
 from experiments.motion.polishing import polished
@@ -77,6 +78,7 @@ class Searcher:
     def __init__(self, place: Place, seed: int) -> None:
         self._place, self._seed = place, seed
         self._lattices = [lattice_of(place, BINS)]
+        self._parts = Parts(self.lattice.ground)
 
     @property
     def lattice(self) -> Lattice:
@@ -97,20 +99,22 @@ class Searcher:
             'start': request.start.tolist(),
             'text': request.goal.text,
         }
+        told |= {'length': None, 'states': 0, 'exhausted': True}
+        if not self._parts.are_joined(request.start, aim):
+            return told
         for lattice in self._each_lattice():
             found = lattice.find(request.start, aim)
-            told['states'] = told.get('states', 0) + found.states
+            told['states'] += found.states
             told['exhausted'] = found.exhausted
             # What is too much for the first lattice is so all the more for a finer one.
             if found.ways or not found.exhausted:
                 break
-        best = math.inf
         firsts = [polished(lattice.ground, way, aim, number, rounds=1) for way in found.ways]
         if firsts:
             way, _ = min(firsts, key=lambda pair: pair[1])
             way, best = polished(lattice.ground, way, aim, number)
             told['end'] = [round(float(value), 6) for value in way[-1]]
-        told['length'] = round(best, 4) if best < math.inf else None
+            told['length'] = round(best, 4) if best < math.inf else None
         return told
 
     def _each_lattice(self) -> Iterator[Lattice]:

@@ -10,7 +10,7 @@ from motion_planner_node.planning import answers
 from motion_planner_node.planning.cache import Cache
 from motion_planner_node.planning.check import CheckResult, check_text
 from motion_planner_node.planning.ground import Ground
-from motion_planner_node.planning.paper_stream import PaperStream
+from motion_planner_node.planning.paper_ways import PaperWays
 from motion_planner_node.planning.problem import (
     Problem,
     check_request,
@@ -20,6 +20,7 @@ from motion_planner_node.planning.problem import (
 from motion_planner_node.planning.proofs import blocked_start, contradiction, lasting
 from motion_planner_node.planning.stream import Stream
 from motion_planner_node.planning.texts import Texts
+from motion_planner_node.planning.ways import Ways
 from motion_planner_node.requests import (
     AdviceAnswer,
     AdviceRequest,
@@ -108,10 +109,12 @@ class MotionPlanner:
         mode = request.mode or self._parameters.mode
         planner = request.planner or self._parameters.planner
         key = (request.preconditions, problem.agent, state, request.seed, mode, planner, preferred)
-        stream_of = PaperStream if mode == PAPER_MODE else Stream
+        ways_of = PaperWays if mode == PAPER_MODE else Ways
         stream = self._streams.get(
             key,
-            lambda: stream_of(problem, ground, self._parameters, request.seed, planner, preferred),
+            lambda: Stream(
+                ways_of(problem, ground, self._parameters, request.seed, planner, preferred)
+            ),
         )
         try:
             with problem.program.broken_off_by(should_stop):

@@ -22,3 +22,17 @@ def go_on(should_stop: ShouldStop) -> None:
     """
     if should_stop():
         raise Stopped
+
+
+class Watch:
+    """Looks at the clock for work that takes turns with others, each of whom asks for themselves."""
+
+    def __init__(self) -> None:
+        self.should_stop: ShouldStop = never
+
+    def look(self) -> None:
+        """Go on.
+
+        :raises Stopped: when ``should_stop`` says not to
+        """
+        go_on(self.should_stop)

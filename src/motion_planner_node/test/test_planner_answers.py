@@ -11,7 +11,7 @@ import pytest
 from motion_planner_node.codes import AttemptResult, Code, Scope, Status
 from motion_planner_node.parameters import Parameters
 from motion_planner_node.planner import MotionPlanner
-from motion_planner_node.planning.stream import Stream
+from motion_planner_node.planning.ways import Ways
 from motion_planner_node.requests import GeometricAnswer, GeometricRequest
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.world import read_world
@@ -226,7 +226,7 @@ def test_a_pocket_too_small_to_turn_in_is_out_of_reach() -> None:
 def test_without_a_proof_a_pocket_is_unknown_and_not_impossible(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(Stream, '_prove_after_all', lambda _: None)
+    monkeypatch.setattr(Ways, '_prove_after_all', lambda _: None)
     answer = MotionPlanner(PLANNER.world).satisfy(GeometricRequest(IN_POCKET, START))
     assert answer.code is Code.NO_PATH
     assert answer.attempts

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+from collections import Counter
 from functools import partial
 from math import pi
 from pathlib import Path
@@ -74,6 +76,25 @@ def test_more_robots_than_are_kept_are_answered_as_ever() -> None:
     assert {answer.status for answer in answers} == {Status.FOUND}
     assert answers[0] == answers[-1]
     assert len(planner._grounds) == MOST_GROUNDS
+
+
+def test_what_is_forgotten_is_gone_without_the_garbage_collector() -> None:
+    planner = MotionPlanner(ROVER, Parameters(cache_size=2))
+    start = Attitude(20.0, 20.0, 0.0)
+    gc.collect()
+    gc.disable()
+    try:
+        before = Counter(type(one).__name__ for one in gc.get_objects())
+        for distance in range(30, 40):
+            for mode in ('robust', 'paper'):
+                text = NEAR.format('rover0', 'location1', distance)
+                planner.satisfy(GeometricRequest(text, {'rover0': start}, mode=mode))
+        after = Counter(type(one).__name__ for one in gc.get_objects())
+    finally:
+        gc.enable()
+    for kind in ('Ways', 'PaperWays', 'Pool', 'Stream', '_Recorder'):
+        assert after[kind] - before[kind] <= 2, kind
+    assert after['Stream'] - before['Stream'] == 2
 
 
 def test_a_cache_tells_what_it_forgets_and_makes_it_anew() -> None:

@@ -19,7 +19,7 @@ from motion_planner_node.codes import Code, Status
 from motion_planner_node.parameters import Parameters
 from motion_planner_node.planner import MotionPlanner
 from motion_planner_node.planning.ground import Ground
-from motion_planner_node.planning.stream import DETOUR
+from motion_planner_node.planning.ways import DETOUR
 from motion_planner_node.requests import GeometricAnswer, GeometricRequest
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.world import read_world

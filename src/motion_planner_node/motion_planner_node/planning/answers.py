@@ -13,8 +13,8 @@ from motion_planner_node.errors import MotionPlannerError
 from motion_planner_node.planning.ground import Ground
 from motion_planner_node.planning.problem import Problem
 from motion_planner_node.planning.proofs import Impossible, scope_of
-from motion_planner_node.planning.stream import Found
 from motion_planner_node.planning.tried import Tried
+from motion_planner_node.planning.ways import Found
 from motion_planner_node.requests import GeometricAnswer
 from motion_planner_node.robots.motion import Attitude, Motion
 from motion_planner_node.robots.robot import Robot

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,8 +17,10 @@ from motion_planner_node.planning.candidates import (
 )
 from motion_planner_node.planning.ground import Ground
 from motion_planner_node.planning.problem import Problem
+from motion_planner_node.planning.tried import Tried
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.satisfaction import descend, destinations_by_travel
+from motion_planner_node.stopping import Watch
 
 #: Destinations that are as near as this [m] and [rad] are the same one, found again.
 SAME = 1e-3
@@ -28,12 +28,9 @@ SAME = 1e-3
 #: radii, and [rad].
 PROBES, ASIDE, TURNED = 48, 1.0, 0.5
 
-#: Notes a destination that will not do, and why.
-Note = Callable[[Attitude, AttemptResult, str], None]
-
 
 class Pool:
-    """Destinations that the robot can stand in and may get to; what will not do is noted.
+    """Destinations that the robot can stand in and may get to; what will not do is noted in ``tried``.
 
     Attributes:
         candidates: those that may still be driven to
@@ -48,15 +45,15 @@ class Pool:
         ground: Ground,
         parameters: Parameters,
         seed: int,
-        note: Note,
-        check_time: Callable[[], None],
+        tried: Tried,
+        watch: Watch,
     ) -> None:
         self._problem = problem
         self._ground = ground
         self._count = parameters.destinations
         self._seed = seed
-        self._note = note
-        self._check_time = check_time
+        self._tried = tried
+        self._watch = watch
         #: The connected part of the free space that the start is in.
         self._here = ground.part_of(problem.start)
         self._seen = np.empty((0, 3))
@@ -67,7 +64,7 @@ class Pool:
 
     def look_everywhere(self) -> None:
         """Look for destinations once more, all over the map."""
-        self._check_time()
+        self._watch.look()
         ground, start = self._ground, self._problem.start
         rows, lengths = destinations_by_travel(
             self._problem.program,
@@ -107,7 +104,7 @@ class Pool:
 
     def has_way_on(self, rows: Array) -> NDArray[np.bool_]:
         """From which free attitudes (n, 3) there is surely a way on; also from the start itself."""
-        open_ends = self._ground.can_turn_round(rows, self._check_time)
+        open_ends = self._ground.can_turn_round(rows, self._watch.look)
         return np.asarray(open_ends | (rows == row_of(self._problem.start)).all(axis=1))
 
     def _add(self, rows: Array, lengths: Array) -> None:
@@ -134,7 +131,7 @@ class Pool:
         for row, is_free in zip(rows, are_free.tolist(), strict=True):
             attitude = attitude_of(row)
             if is_free:
-                self._note(attitude, AttemptResult.NO_PATH, 'walled off from the start')
+                self._tried.add(attitude, AttemptResult.NO_PATH, 'walled off from the start')
             else:
                 trouble = self._ground.trouble(attitude)
-                self._note(attitude, AttemptResult.IN_OBSTACLE, trouble)
+                self._tried.add(attitude, AttemptResult.IN_OBSTACLE, trouble)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from motion_planner_node.codes import AttemptResult
 from motion_planner_node.requests import Attempt
@@ -28,6 +28,16 @@ class Tried:
         self.examples.setdefault(result, reason)
         if len(self.attempts) < ATTEMPTS_KEPT:
             self.attempts.append(Attempt(self.agent, destination, result, reason))
+
+    def taken(self) -> Tried:
+        """What was noted, which is no longer noted here."""
+        taken = replace(self)
+        self.forget()
+        return taken
+
+    def forget(self) -> None:
+        """Begin anew."""
+        self.attempts, self.counts, self.examples = [], Counter(), {}
 
     @property
     def total(self) -> int:

@@ -60,7 +60,8 @@ class _Recorder:
     def __init__(self) -> None:
         self.constants: list[float] = []
         self.operations: list[tuple[int, int, int]] = []
-        self._known: dict[tuple[int, int, int], _Recorded] = {}
+        #: The slots of operations.
+        self._known: dict[tuple[int, int, int], int] = {}
 
     def constant(self, value: float) -> _Recorded:
         self.constants.append(value)
@@ -68,12 +69,10 @@ class _Recorder:
 
     def operate(self, code: int, first: int, second: int) -> _Recorded:
         operation = self._merged(code, first, second)
-        known = self._known.get(operation)
-        if known is None:
-            slot = len(COMPONENTS) + len(self.operations)
-            known = self._known[operation] = _Recorded(self, slot)
+        slot = self._known.setdefault(operation, len(COMPONENTS) + len(self.operations))
+        if slot == len(COMPONENTS) + len(self.operations):
             self.operations.append(operation)
-        return known
+        return _Recorded(self, slot)
 
     def operation(self, slot: int) -> tuple[int, int, int] | None:
         """What computes ``slot``; None where it is a component or a constant."""

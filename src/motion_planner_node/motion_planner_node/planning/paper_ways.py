@@ -9,7 +9,7 @@ import numpy as np
 from motion_planner_node.codes import AttemptResult
 from motion_planner_node.functions import Array
 from motion_planner_node.planning.candidates import attitude_of, row_of
-from motion_planner_node.planning.stream import Found, Stream, Way
+from motion_planner_node.planning.ways import Found, Way, Ways
 from motion_planner_node.satisfaction.paper_mode import (
     PaperCriterion,
     PaperLimits,
@@ -18,10 +18,10 @@ from motion_planner_node.satisfaction.paper_mode import (
 )
 
 
-class PaperStream(Stream):
+class PaperWays(Ways):
     """Motions in the order in which Algorithm 1 finds them; it proves nothing."""
 
-    def _generate(self) -> Iterator[Found]:
+    def _to_anywhere(self) -> Iterator[Found]:
         start, bounds = self._problem.start, self._ground.scene.world.bounds
         rng = np.random.default_rng([self._seed, 0])
         self._share = 0.0
@@ -40,7 +40,7 @@ class PaperStream(Stream):
                 return
 
     def _not_in_obstacle(self, state: Array) -> bool:
-        self._check_time()
+        self._watch.look()
         if self._ground.is_free(state[None, :])[0]:
             return True
         attitude = attitude_of(state)
@@ -53,6 +53,7 @@ class PaperStream(Stream):
         only = self._only(self._number, state[None, :])
         return None if self._has_failed else self._plan(only, None)
 
-    def _restart(self) -> None:
+    def forget(self) -> None:
+        """Begin anew."""
         self._number = 0
-        super()._restart()
+        super().forget()
