@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from motion_planner_node.codes import Status
-from motion_planner_node.parameters import Parameters
+from motion_planner_node.parameters import MODES, Parameters
 from motion_planner_node.planner import MOST_GROUNDS, MotionPlanner
 from motion_planner_node.planning.cache import Cache
 from motion_planner_node.requests import AdviceRequest, GeometricRequest
@@ -86,7 +86,7 @@ def test_what_is_forgotten_is_gone_without_the_garbage_collector() -> None:
     try:
         before = Counter(type(one).__name__ for one in gc.get_objects())
         for distance in range(30, 40):
-            for mode in ('robust', 'paper'):
+            for mode in MODES:
                 text = NEAR.format('rover0', 'location1', distance)
                 planner.satisfy(GeometricRequest(text, {'rover0': start}, mode=mode))
         after = Counter(type(one).__name__ for one in gc.get_objects())
