@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import pi, sqrt
 
 import numpy as np
 from hypothesis import given, settings
@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from motion_planner_node.codes import Code
 from motion_planner_node.paths import PathOutcome, plan_path
 from motion_planner_node.paths.edges import frame_of
-from motion_planner_node.paths.shortening import CHUNK, best_subsequence
+from motion_planner_node.paths.shortening import CHUNK, HUBS, best_subsequence
 from motion_planner_node.planner import MotionPlanner
 from motion_planner_node.requests import GeometricRequest
 from motion_planner_node.robots.motion import Attitude
@@ -63,14 +63,17 @@ def test_what_cannot_be_reached_is_given_up_after_one_look_at_all_there_is() -> 
 
 def test_long_paths_are_made_shorter_with_looks_at_the_clock() -> None:
     frame = frame_of(SCENE.shapes, CAR.body, CAR.steering, CAR.turning_radius)
-    rows = np.column_stack((np.linspace(2.0, 32.0, 300), np.full(300, 17.0), np.zeros(300)))
+    size = 3000
+    x = np.linspace(2.0, 32.0, size)
+    rows = np.column_stack((x, np.full_like(x, 17.0), np.zeros_like(x)))
     looks = 0
 
     def count() -> None:
         nonlocal looks
         looks += 1
 
-    path, edges = best_subsequence(frame, rows, count)
+    path, edges = best_subsequence(frame, rows, x - 2.0, count)
     assert path.tolist() == [rows[0].tolist(), rows[-1].tolist()]
     assert edges.tolist() == [30.0]
-    assert looks >= 300 * 299 / 2 / (CHUNK + 300)
+    hubs = HUBS * sqrt(size)
+    assert looks >= hubs * (hubs - 1) / 2 / (CHUNK + hubs)

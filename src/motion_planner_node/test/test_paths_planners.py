@@ -21,7 +21,7 @@ from motion_planner_node.paths import (
 )
 from motion_planner_node.paths import planner as planning
 from motion_planner_node.paths.finishing import motion_along
-from motion_planner_node.paths.improving import length_of, refined, simplified
+from motion_planner_node.paths.improving import refined, simplified
 from motion_planner_node.paths.query import Query
 from motion_planner_node.robots.motion import Attitude, Motion
 from motion_planner_node.robots.robot import Robot
@@ -133,10 +133,8 @@ def test_unknown_names_are_refused_with_the_list() -> None:
 
 
 def test_a_simplifier_that_breaks_paths_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
-    def through_the_wall(
-        query: Query, path: NDArray[np.float64], length: float
-    ) -> tuple[NDArray[np.float64], float]:
-        return np.array([path[0], (30.0, 20.0, 0.0), path[-1]]), length
+    def through_the_wall(query: Query, path: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.array([path[0], (30.0, 20.0, 0.0), path[-1]])
 
     scene = scene_of(WALL)
     honest = plan_path(scene, CAR, START, [GOALS[1]], 1, never)
@@ -154,10 +152,9 @@ def test_a_path_that_is_not_free_is_left_to_the_exact_check() -> None:
     query = Query(
         scene_of(WALL), CAR, START, rows[1:], (1,), PathBudget(), never, lambda near: near
     )
-    length = length_of(query, rows)
     assert motion_along(query, rows) is None
-    assert np.array_equal(simplified(query, rows, length)[0], rows)
-    assert np.array_equal(refined(query, rows, length)[0], rows)
+    assert np.array_equal(simplified(query, rows), rows)
+    assert np.array_equal(refined(query, rows), rows)
 
 
 def test_a_region_gives_better_ends() -> None:

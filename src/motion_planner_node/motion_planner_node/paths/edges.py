@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from motion_planner_node.robots.body import Body
 from motion_planner_node.robots.kernel import kernel
-from motion_planner_node.robots.motion import Pose
 from motion_planner_node.robots.steering import (
     MOST_PIECES,
     all_words,
@@ -75,14 +74,6 @@ def frame_of(shapes: Shapes, body: Body, steering: int, radius: float) -> Frame:
     frame.words = np.zeros((words(steering), MOST_PIECES, 4))
     frame.lengths = np.empty(words(steering))
     return frame
-
-
-@kernel
-def shortest_is_free(frame: Frame, start: Pose, end: Pose) -> bool:
-    """Whether the shortest word from a free attitude to another is free."""
-    pieces = np.zeros((MOST_PIECES, 4))
-    number = shortest_word(frame.steering, frame.radius, start, end, inf, pieces)[1]
-    return number >= 0 and word_is_free(frame.shapes, frame.body, start, pieces)
 
 
 @kernel

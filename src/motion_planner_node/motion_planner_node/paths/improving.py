@@ -28,55 +28,43 @@ WORTHWHILE = 0.002
 TAIL = 0.4
 
 
-def length_of(query: Query, path: Rows) -> float:
-    """Length [m] of ``path`` (n, 3)."""
-    return float(edge_lengths(query.frame, path).sum())
-
-
-def simplified(query: Query, path: Rows, length: float) -> tuple[Rows, float]:
-    """A path between the same ends that is not longer than ``length`` [m], which is that of ``path``.
-
-    And its own length [m].
-    """
+def simplified(query: Query, path: Rows) -> Rows:
+    """A path between the same ends that is not longer than ``path`` (n, 3)."""
     query.check_time()
     if len(path) == 2:
         shortest = float(shortest_between(path[0], path[1:], query.robot)[0])
-        if length <= STRAIGHT * shortest:
-            return path, length
+        if edge_lengths(query.frame, path)[0] <= STRAIGHT * shortest:
+            return path
     draws = query.random.uniform(-1.0, 1.0, (MOVES, 3))
-    reach = 2.0 * query.reach
-    return shortened(query.frame, path, length, POINTS, reach, draws, query.check_time)
+    return shortened(query.frame, path, POINTS, 2.0 * query.reach, draws, query.check_time)
 
 
-def refined(query: Query, path: Rows, length: float) -> tuple[Rows, float]:
-    """A path that is not longer and may end at another destination of the region; and its length.
-
-    ``length`` [m] is that of ``path``.
-    """
+def refined(query: Query, path: Rows) -> Rows:
+    """A path that is not longer than ``path`` (n, 3) and may end at another destination of the region."""
     if query.region is None:
-        return path, length
+        return path
+    before = inf
     for number in range(query.budget.refinements):
         query.check_time()
-        if not 0.0 < length < inf:
+        along, ways = densified(query.frame, path, LEAVES, 0.0)
+        length = float(ways[-1])
+        if not 0.0 < length < inf or length > (1.0 - WORTHWHILE) * before:
             break
-        along, ways = densified(query.frame, path, length, LEAVES, 0.0)
         ends = query.region(_probes(query, along, 0.5**number))
         if not len(ends):
             continue
-        shorter, leave, end = _best_ending(query, along, ways, ends, length)
+        leave, end = _best_ending(query, along, ways, ends, length)
         if leave < 0:
             continue
         before = length
-        path, length = simplified(query, np.vstack((along[: leave + 1], ends[end])), shorter)
-        if length > (1.0 - WORTHWHILE) * before:
-            break
-    return path, length
+        path = simplified(query, np.vstack((along[: leave + 1], ends[end])))
+    return path
 
 
 def _best_ending(
     query: Query, along: Rows, ways: Row, ends: Rows, length: float
-) -> tuple[float, int, int]:
-    """As `best_ending`, with looks at the clock."""
+) -> tuple[int, int]:
+    """As `best_ending`, with looks at the clock: where the path is left, and the end."""
     best, leave, end = length, -1, -1
     for first in range(0, len(along), STRETCH):
         query.check_time()
@@ -84,7 +72,7 @@ def _best_ending(
         shorter, at, chosen = best_ending(query.frame, along[part], ways[part], ends, best)
         if at >= 0:
             best, leave, end = shorter, first + at, chosen
-    return best, leave, end
+    return leave, end
 
 
 def _probes(query: Query, along: Rows, scale: float) -> Rows:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from math import pi, remainder, tau
+from math import inf, pi, remainder, tau
 from threading import Lock
 
+import numpy as np
 from ompl import base, util
 
-from motion_planner_node.paths.edges import Frame, Row, shortest_is_free
+from motion_planner_node.paths.edges import Frame, Row, shortest_word_if_free
 from motion_planner_node.paths.query import Query
+from motion_planner_node.robots.steering import MOST_PIECES
 from motion_planner_node.world.sweeps import is_free_at
 
 util.setLogLevel(util.LogLevel.LOG_NONE)
@@ -26,14 +28,16 @@ class Edges(base.MotionValidator):
     def __init__(self, information: base.SpaceInformation, frame: Frame) -> None:
         super().__init__(information)
         self._frame = frame
+        self._pieces = np.zeros((MOST_PIECES, 4))
 
     def checkMotion(self, start: base.State, end: base.State) -> bool:
         """Whether the edge from ``start`` to ``end`` is valid."""
-        return shortest_is_free(
-            self._frame,
-            (start.getX(), start.getY(), start.getYaw()),
-            (end.getX(), end.getY(), end.getYaw()),
-        )
+        here, there = _row_of(start), _row_of(end)
+        return shortest_word_if_free(self._frame, here, there, inf, self._pieces) < inf
+
+
+def _row_of(state: base.State) -> Row:
+    return np.array([state.getX(), state.getY(), state.getYaw()])
 
 
 class Iterations:

@@ -10,7 +10,7 @@ import numpy as np
 
 from motion_planner_node.errors import Stopped
 from motion_planner_node.paths.finishing import first_valid
-from motion_planner_node.paths.improving import length_of, refined, simplified
+from motion_planner_node.paths.improving import refined, simplified
 from motion_planner_node.paths.planners import DEFAULT_PLANNER, planner_named
 from motion_planner_node.paths.query import Query, Region
 from motion_planner_node.paths.result import PathBudget, PathOutcome, PathResult
@@ -88,8 +88,8 @@ def solved(query: Query, planner: str = DEFAULT_PLANNER) -> PathResult:
     if raw is not None:
         paths = [raw]
         if chosen.improves:
-            simple, length = simplified(query, raw, length_of(query, raw))
-            paths = [refined(query, simple, length)[0], simple, raw]
+            simple = simplified(query, raw)
+            paths = [refined(query, simple), simple, raw]
         motion, which = first_valid(query, paths)
         if motion is not None:
             return PathResult(PathOutcome.FOUND, motion, which)

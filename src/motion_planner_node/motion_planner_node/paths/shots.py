@@ -42,13 +42,21 @@ def best_ending(
     return (best, leave, end) if leave >= 0 else (inf, -1, -1)
 
 
-def direct(query: Query) -> Rows | None:
-    """The shortest of the shortest words from the start to the goals that are free: attitudes (2, 3)."""
+def shortest_shot(query: Query) -> tuple[Rows | None, float]:
+    """The shortest of the shortest words from the start to the goals that are free, and its length [m].
+
+    It is given by attitudes (2, 3).
+    """
     start = query.start[None, :]
-    _, leave, end = best_ending(query.frame, start, np.zeros(1), query.goals, query.longest)
+    length, leave, end = best_ending(query.frame, start, np.zeros(1), query.goals, query.longest)
     if leave < 0:
         query.efforts.append(
             f'none of the shortest motions to {len(query.goals)} destinations is free'
         )
-        return None
-    return np.vstack((start, query.goals[end]))
+        return None, length
+    return np.vstack((start, query.goals[end])), length
+
+
+def direct(query: Query) -> Rows | None:
+    """The path of `shortest_shot`, and no other."""
+    return shortest_shot(query)[0]

@@ -20,8 +20,9 @@ TURN_SPACING = pi / 18
 def integrate(start: Attitude, segments: Iterable[Segment], robot: Robot) -> Attitude:
     """The attitude after driving ``segments`` from ``start``, in closed form."""
     x, y, heading = float(start.x), float(start.y), float(start.heading)
-    for bend, length, direction, turn in robot.pieces_of(segments).tolist():
-        x, y, heading = advance(x, y, heading, bend, length, direction, turn)
+    for segment in segments:
+        bend, length = robot.curvature(segment.steering_angle), segment.length
+        x, y, heading = advance(x, y, heading, bend, length, segment.direction, segment.turn)
     return Attitude(x, y, wrap_angle(heading))
 
 

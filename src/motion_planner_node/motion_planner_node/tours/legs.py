@@ -12,11 +12,12 @@ from motion_planner_node.paths.edges import (
     Frame,
     Row,
     Rows,
+    edge_lengths,
     frame_of,
     free_word,
     shortest_length,
 )
-from motion_planner_node.paths.improving import length_of, simplified
+from motion_planner_node.paths.improving import simplified
 from motion_planner_node.paths.planners import DEFAULT_PLANNER, planner_named
 from motion_planner_node.paths.query import SPARE_CLEARANCE, Query
 from motion_planner_node.paths.result import PathBudget
@@ -90,7 +91,8 @@ class Legs:
         raw = planner_named(DEFAULT_PLANNER).find(query)
         if raw is None:
             return length, both
-        rows, planned = simplified(query, raw, length_of(query, raw))
+        rows = simplified(query, raw)
+        planned = float(edge_lengths(self.frame, rows).sum())
         return (planned, rows) if planned < length else (length, both)
 
 

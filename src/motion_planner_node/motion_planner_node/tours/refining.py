@@ -68,5 +68,6 @@ def refined(
             if len(way) > 2:
                 edges = edge_lengths(legs.frame, way)
                 nudge(legs.frame, way, edges, spread, rng.uniform(-1.0, 1.0, (MOVES, 3)))
-                ways[index], _ = best_subsequence(legs.frame, way, check_time)
+                along = np.concatenate(([0.0], np.cumsum(edges)))
+                ways[index], _ = best_subsequence(legs.frame, way, along, check_time)
     return np.vstack((rows[:1], *(way[-1:] for way in ways)))
