@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -54,6 +55,9 @@ class Random:
     top: Net
     impossible: frozenset[str]
     unknown: frozenset[str]
+    # How many destinations there are for each text, and from which of them to which texts no way is found.
+    destinations: int
+    lost: frozenset[tuple[str, str]]
 
 
 def networks(names: list[str], arguments: st.SearchStrategy[str]) -> st.SearchStrategy[Net]:
@@ -84,7 +88,11 @@ def missions(draw: st.DrawFn) -> Random:
         )
     everything = primitive + [f't{i}' for i in range(count)]
     facts = draw(st.frozensets(st.tuples(st.sampled_from(PREDICATES), st.sampled_from(OBJECTS))))
-    texts = st.sampled_from([f'{name} {o}' for name in primitive for o in OBJECTS])
+    every = [f'{name} {o}' for name in primitive for o in OBJECTS]
+    texts = st.sampled_from(every)
+    destinations, random = draw(st.integers(1, 2)), draw(st.randoms(use_true_random=False))
+    ends = [end_of(text, number) for text in every for number in range(destinations)]
+    lost = [pair for pair in itertools.product(ends, every) if random.random() < 0.4]
     top = draw(networks(everything, st.sampled_from(OBJECTS)))
     return Random(
         actions,
@@ -93,7 +101,13 @@ def missions(draw: st.DrawFn) -> Random:
         top,
         draw(st.frozensets(texts, max_size=1)),
         draw(st.frozensets(texts, max_size=1)),
+        destinations,
+        frozenset(lost),
     )
+
+
+def end_of(text: str, alternative: int) -> str:
+    return f'{text} at {alternative}'
 
 
 # --- the mission as text
@@ -191,27 +205,30 @@ class TooLarge(Exception):
 class Reference:
     """All plans of a mission; raises TooLarge when they are more than MOST_PLANS."""
 
-    def __init__(self, mission: Random, blocked: frozenset[str]) -> None:
+    def __init__(
+        self, mission: Random, blocked: frozenset[str], lost: frozenset[tuple[str, str]]
+    ) -> None:
         self.mission = mission
         self.blocked = blocked
-        self.known: dict[tuple[Net, Facts], frozenset[Plan]] = {}
+        self.lost = lost
+        self.known: dict[tuple[Net, Facts, str], frozenset[Plan]] = {}
         self.count = 0
 
-    def plans(self, net: Net, facts: Facts) -> frozenset[Plan]:
+    def plans(self, net: Net, facts: Facts, where: str = '') -> frozenset[Plan]:
         if done(net):
             return frozenset([()])
-        key = (net, facts)
+        key = (net, facts, where)
         if key not in self.known:
             found: set[Plan] = set()
             for (name, thing), put in firsts(net):
                 if name.startswith('!'):
-                    found |= self.act(name, thing, put, facts)
+                    found |= self.act(name, thing, put, facts, where)
                 else:
                     for branches in self.mission.tasks[int(name[1:])]:
                         for condition, tasks in branches:
                             solutions = bindings(condition, facts, {'?x': thing})
                             for binding in solutions:
-                                found |= self.plans(put(ground(tasks, binding)), facts)
+                                found |= self.plans(put(ground(tasks, binding)), facts, where)
                             if solutions:
                                 break
             self.known[key] = frozenset(found)
@@ -220,21 +237,27 @@ class Reference:
                 raise TooLarge
         return self.known[key]
 
-    def act(self, name: str, thing: str, put: Callable[[Net], Net], facts: Facts) -> set[Plan]:
-        action = self.mission.actions[int(name[2:])]
-        if action.geometric and f'{name} {thing}' in self.blocked:
+    def act(
+        self, name: str, thing: str, put: Callable[[Net], Net], facts: Facts, where: str
+    ) -> set[Plan]:
+        action, text = self.mission.actions[int(name[2:])], f'{name} {thing}'
+        if action.geometric and (text in self.blocked or (where, text) in self.lost):
             return set()
         if not bindings(action.condition, facts, {'?x': thing}):
             return set()
         effects = [(add, p, substitute(word, {'?x': thing})) for add, p, word in action.effects]
         after = facts - {(p, t) for add, p, t in effects if not add}
         after |= {(p, t) for add, p, t in effects if add}
-        return {((name, thing), *rest) for rest in self.plans(put(EMPTY), after)}
+        numbers = range(self.mission.destinations)
+        ends = [end_of(text, number) for number in numbers] if action.geometric else [where]
+        return {
+            ((name, thing), *rest) for end in ends for rest in self.plans(put(EMPTY), after, end)
+        }
 
 
 @dataclass
 class RandomMotionPlanner:
-    """Every destination is the same; some texts are impossible, others are never found."""
+    """Some texts are impossible, others are never found, or not from everywhere."""
 
     mission: Random
     reverse: bool
@@ -246,9 +269,14 @@ class RandomMotionPlanner:
         name = query.preconditions.strip('()')
         if name in self.mission.impossible:
             return Answer(Status.IMPOSSIBLE, 103, Scope.CONNECTED_STARTS, 'walled in')
-        if name in self.mission.unknown:
+        is_lost = (query.start, name) in self.mission.lost
+        if (
+            name in self.mission.unknown
+            or is_lost
+            or query.alternative >= self.mission.destinations
+        ):
             return Answer(Status.UNKNOWN, 202, message='not found')
-        return Answer(Status.FOUND, end=name, length=1.0)
+        return Answer(Status.FOUND, end=end_of(name, query.alternative), length=1.0)
 
     def advise(self, query: AdviceQuery) -> Advice:
         preconditions = query.preconditions
@@ -270,12 +298,13 @@ def test_the_search_agrees_with_brute_force(
     domain, problem = texts(mission)
     top = ground(mission.top, {})
     try:
-        surely = Reference(mission, mission.impossible | mission.unknown).plans(top, mission.facts)
-        perhaps = Reference(mission, mission.impossible).plans(top, mission.facts)
+        blocked = mission.impossible | mission.unknown
+        surely = Reference(mission, blocked, mission.lost).plans(top, mission.facts)
+        perhaps = Reference(mission, mission.impossible, frozenset()).plans(top, mission.facts)
     except TooLarge:
         reject()
     oracle = RandomMotionPlanner(mission, reverse)
-    options = Options(use_advice=use_advice, max_alternatives=1, time_budget=600.0)
+    options = Options(use_advice=use_advice, max_alternatives=3, time_budget=600.0)
     result = plan(domain, problem, oracle, options)
     if result.outcome == Outcome.INVALID:
         assert re.search('bound by neither', result.explanation)

@@ -106,6 +106,7 @@ class Candidates:
         version = self._geometry.version
         ordered = self._best_first(where, candidates, ask=not focused)
         if self._is_too_long(position):
+            self._search.placed += 1
             return
         if self._geometry.version != version:
             yield ()

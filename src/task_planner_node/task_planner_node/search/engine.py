@@ -64,6 +64,8 @@ class Search:
         self.farthest = Farthest()
         self.proven = True
         self.gave_up = False
+        # Grows with all that depends on where the robots stand, and not on the facts alone.
+        self.placed = 0
         self.stack: list[Node] = []
         self.position: Position | None = None
         self.log: list[Expansion] = []
@@ -189,6 +191,7 @@ class Search:
                 self.deepest = actions
                 self.dead_ends.latest = None
             if optimise and cost + rest_cost >= plans.bound:
+                self.placed += 1
                 return False
             if network is None:
                 return self._accept(where, cost)
@@ -223,6 +226,7 @@ class Search:
         entry = self.visited.enter(network, self._state, where.start, cost)
         if entry is None:
             return False
+        self.placed += 1
         self.stack[-1].unproven |= entry.unproven
         if entry.open:
             task = next(all_tasks(network))
@@ -253,6 +257,7 @@ class Search:
                 parent.task == task or (loose and shape(parent.task) == wanted)
             ):
                 if not allowed:
+                    self.placed += 1
                     self.stack[-1].postponed = True
                     return True
                 allowed -= 1
@@ -288,6 +293,7 @@ class Search:
             unmet = self._beginning.unmet(self._state)
             self.dead_ends.add(('goal',), 'goal', f'not reached when all is done: {unmet}')
             return False
+        self.placed += 1
         self.plans.add(self.log, self._state.history(), where.length, cost)
         return self.plans.enough
 

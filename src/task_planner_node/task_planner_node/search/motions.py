@@ -58,8 +58,15 @@ class Motions:
         operator: CompiledOperator,
         frame: Frame,
     ) -> Moves:
-        """The geometric preconditions and then the effects, for one solution of the symbolic preconditions."""
-        mark = self._state.mark()
+        """The geometric preconditions and then the effects, for one solution of the symbolic preconditions.
+
+        Where all that failed after one destination failed for what the facts are, it would fail after each of them,
+        so no other is tried: backjumping (P. Prosser, "Hybrid algorithms for the constraint satisfaction problem",
+        Computational Intelligence 9, 1993).
+        """
+        search, mark = self._search, self._state.mark()
+        before = search.placed
+        search.placed += 1
         for request, answer in self._answers(position[1], cell, operator, frame):
             if answer.status != Status.FOUND:
                 yield ()
@@ -67,8 +74,14 @@ class Motions:
             following = self._act(position, cell, path, operator, frame, request, answer)
             if following is None:
                 self._state.undo(mark)
+                search.placed = before
                 return
+            placed = search.placed
             yield following
+            if search.placed == placed:
+                # Nor does it matter to those who came here from where.
+                search.placed = before
+                return
 
     def _answers(
         self, where: Whereabouts, cell: Cell, operator: CompiledOperator, frame: Frame
