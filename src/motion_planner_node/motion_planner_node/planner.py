@@ -20,6 +20,7 @@ from motion_planner_node.planning.problem import (
 from motion_planner_node.planning.proofs import blocked_start, contradiction, lasting
 from motion_planner_node.planning.stream import Stream
 from motion_planner_node.planning.texts import Texts
+from motion_planner_node.planning.tried import Tried
 from motion_planner_node.planning.ways import Ways
 from motion_planner_node.requests import (
     AdviceAnswer,
@@ -29,7 +30,7 @@ from motion_planner_node.requests import (
 )
 from motion_planner_node.robots.motion import Attitude, Motion
 from motion_planner_node.robots.robot import Robot
-from motion_planner_node.stopping import ShouldStop, never
+from motion_planner_node.stopping import ShouldStop, go_on, never
 from motion_planner_node.tours.exact import MOST_EXACT
 from motion_planner_node.world import Scene
 from motion_planner_node.world.model import (
@@ -39,7 +40,7 @@ from motion_planner_node.world.model import (
     World,
     WorldObject,
 )
-from motion_planner_node.world.standing import with_standing
+from motion_planner_node.world.standing import outlines_of
 
 #: Robots whose free space is kept.
 MOST_GROUNDS = 8
@@ -91,7 +92,10 @@ class MotionPlanner:
             preferred = preferred_end(problem, request)
         except MotionPlannerError as error:
             return answers.refused(error, self.world.revision)
-        ground = self._crowded_ground(problem)
+        try:
+            ground = self._crowded_ground(problem, should_stop)
+        except Stopped:
+            return answers.out_of_time(problem, self._ground(problem.robot), Tried(problem.agent))
         proof = contradiction(problem) or blocked_start(problem, ground)
         if proof:
             return answers.impossible(problem, ground, proof)
@@ -148,15 +152,18 @@ class MotionPlanner:
     def _ground(self, robot: Robot) -> Ground:
         return self._grounds.get(robot, lambda: Ground(self._scene, robot))
 
-    def _crowded_ground(self, problem: Problem) -> Ground:
+    def _crowded_ground(self, problem: Problem, should_stop: ShouldStop) -> Ground:
         """The ground on which the robot of ``problem`` drives while all others stand still."""
         robot, others = problem.robot, problem.others
         if not others:
             return self._ground(robot)
-        return self._crowded.get(
-            (robot, tuple(others.items())),
-            lambda: Ground(Scene(with_standing(self.world, others)), robot),
-        )
+
+        def ground() -> Ground:
+            scene = self._scene.with_more(outlines_of(self.world, others))
+            go_on(should_stop)
+            return Ground(scene, robot)
+
+        return self._crowded.get((robot, tuple(others.items())), ground)
 
 
 def warm_up() -> None:

@@ -71,11 +71,23 @@ class FreeSpace:
     closed as far as ``resolution`` lets them be seen.
     """
 
-    def __init__(self, shapes: Shapes, margin: float) -> None:
-        self._grid = Grid(shapes, margin, MOST_CELLS, CELLS_ON_SHORTER_SIDE)
-        self._labels = components(self._grid.open)
-        self._travel_grid = travel_grid(shapes, margin, self._grid)
+    def __init__(self, grid: Grid, travel: Grid) -> None:
+        self._grid = grid
+        self._labels = components(grid.open)
+        self._travel_grid = travel
         self._fields: OrderedDict[tuple[float, float], TravelField] = OrderedDict()
+
+    @classmethod
+    def of(cls, shapes: Shapes, margin: float) -> FreeSpace:
+        """The free space of a disc of clearance ``margin`` [m] among ``shapes``."""
+        grid = Grid(shapes, margin, MOST_CELLS, CELLS_ON_SHORTER_SIDE)
+        return cls(grid, travel_grid(shapes, margin, grid))
+
+    def with_more(self, shapes: Shapes, boxes: NDArray[np.float64]) -> FreeSpace:
+        """The same where there are more ``shapes``, those in ``boxes`` (n, 4) [m], than before."""
+        return FreeSpace(
+            self._grid.with_more(shapes, boxes), self._travel_grid.with_more(shapes, boxes)
+        )
 
     @property
     def resolution(self) -> float:

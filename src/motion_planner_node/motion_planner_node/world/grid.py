@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from copy import copy
 from math import ceil, inf, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
-from motion_planner_node.world.regions import open_cells, travel_at_each, travel_distances
+from motion_planner_node.world.regions import close_cells, travel_at_each, travel_distances
 from motion_planner_node.world.shapes import Shapes
 
 #: Cells of a grid for estimates of travel: no more than it takes, to be quick.
@@ -34,9 +35,26 @@ class Grid:
         self.cell = max(_side(shapes, most), min(width, height) / on_shorter_side)
         self.columns = ceil(width / self.cell)
         self.rows = ceil(height / self.cell)
+        self._margin = margin
+        self.open = np.ones((self.rows, self.columns), np.bool_)
+        close_cells(shapes, margin, self.cell, (0, self.rows, 0, self.columns), self.open)
         #: With a frame of closed cells all round, (rows + 2, columns + 2).
-        self.framed = np.pad(open_cells(shapes, margin, self.cell, self.columns, self.rows), 1)
-        self.open = np.ascontiguousarray(self.framed[1:-1, 1:-1])
+        self.framed = np.pad(self.open, 1)
+
+    def with_more(self, shapes: Shapes, boxes: NDArray[np.float64]) -> Grid:
+        """The same cells where there are more ``shapes``, those in ``boxes`` (n, 4) [m], than before."""
+        grid = copy(self)
+        grid.open = self.open.copy()
+        corner, most = np.array(self.corner), np.array((self.columns, self.rows))
+        low = np.clip(np.floor((boxes[:, :2] - self._margin - corner) / self.cell) - 1, 0, most)
+        high = np.clip(np.ceil((boxes[:, 2:] + self._margin - corner) / self.cell) + 1, 0, most)
+        for (left, bottom), (right, top) in zip(
+            low.astype(int).tolist(), high.astype(int).tolist(), strict=True
+        ):
+            window = (bottom, top, left, right)
+            close_cells(shapes, self._margin, self.cell, window, grid.open)
+        grid.framed = np.pad(grid.open, 1)
+        return grid
 
     def places(self, most: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Middles (n,), (n,) [m] from the corner, of at most ``most`` open cells all over the map."""

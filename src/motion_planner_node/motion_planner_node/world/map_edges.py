@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import cos, sin
 
 import numpy as np
@@ -62,8 +63,18 @@ def count_edges(grid: OccupancyMap, most: int) -> int:
     return int(_runs(grid.occupied, int(grid.unknown_occupied), most, nothing))
 
 
+@lru_cache(maxsize=2)
 def map_edges(grid: OccupancyMap) -> NDArray[np.float64]:
-    """Edges (n, 4) x0, y0, x1, y1 [m]: straight ones as long as they go on, in frame ``map``."""
+    """Edges (n, 4) x0, y0, x1, y1 [m]: straight ones as long as they go on, in frame ``map``.
+
+    Kept for the next world with the same map; cannot be written to.
+    """
+    edges = _placed(grid)
+    edges.setflags(write=False)
+    return edges
+
+
+def _placed(grid: OccupancyMap) -> NDArray[np.float64]:
     occupied, outside = grid.occupied, int(grid.unknown_occupied)
     most = 2 * (len(occupied) + 1) * (occupied.shape[1] + 1)
     nothing = np.zeros((0, 4), np.int32)

@@ -47,6 +47,12 @@ class Polygon:
         """The outline and those of the holes."""
         return (self.corners, *self.holes)
 
+    @property
+    def box(self) -> tuple[float, float, float, float]:
+        """Its x_min, y_min, x_max and y_max [m]."""
+        xs, ys = zip(*self.corners, strict=True)
+        return min(xs), min(ys), max(xs), max(ys)
+
 
 @dataclass(frozen=True, slots=True)
 class Circle:
@@ -55,6 +61,12 @@ class Circle:
     name: str
     center: tuple[float, float]
     radius: float
+
+    @property
+    def box(self) -> tuple[float, float, float, float]:
+        """Its x_min, y_min, x_max and y_max [m]."""
+        (x, y), radius = self.center, self.radius
+        return x - radius, y - radius, x + radius, y + radius
 
 
 Obstacle = Polygon | Circle

@@ -46,18 +46,23 @@ def _is_open(shapes: Shapes, margin: float, x: float, y: float, half: float) -> 
 
 
 @kernel
-def open_cells(
-    shapes: Shapes, margin: float, cell: float, columns: int, rows: int
-) -> NDArray[np.bool_]:
-    """Which of the ``rows`` x ``columns`` square cells [m] from the map's corner may be free."""
-    result = np.empty((rows, columns), np.bool_)
+def close_cells(
+    shapes: Shapes,
+    margin: float,
+    cell: float,
+    window: tuple[int, int, int, int],
+    cells: NDArray[np.bool_],
+) -> None:
+    """Close those of the square ``cells`` [m] from the map's corner that cannot be free.
+
+    Only those in the ``window`` are looked at: the first row and the one after the last, and columns.
+    """
     half = 0.5 * cell
-    for row in range(rows):
-        for column in range(columns):
+    for row in range(window[0], window[1]):
+        for column in range(window[2], window[3]):
             x = shapes.bounds[0] + (column + 0.5) * cell
             y = shapes.bounds[1] + (row + 0.5) * cell
-            result[row, column] = _is_open(shapes, margin, x, y, half)
-    return result
+            cells[row, column] &= _is_open(shapes, margin, x, y, half)
 
 
 @kernel

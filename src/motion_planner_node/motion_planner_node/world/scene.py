@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import lru_cache, partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +14,7 @@ from motion_planner_node.robots.motion import Motion
 from motion_planner_node.robots.robot import Robot
 from motion_planner_node.world.clearance import clearance_at, clearances
 from motion_planner_node.world.free_space import FreeSpace
-from motion_planner_node.world.model import World
+from motion_planner_node.world.model import Obstacle, World
 from motion_planner_node.world.shapes import shapes_of
 from motion_planner_node.world.sweeps import are_free, chain_clearance, chain_is_free
 
@@ -25,10 +27,20 @@ class Scene:
     def __init__(self, world: World) -> None:
         self.world = world
         self.shapes, self._names = shapes_of(world)
-        self._free_space = lru_cache(maxsize=8)(self._new_free_space)
+        self._free_spaces: Callable[[float], FreeSpace]
+        self._free_spaces = lru_cache(maxsize=8)(partial(FreeSpace.of, self.shapes))
 
-    def _new_free_space(self, margin: float) -> FreeSpace:
-        return FreeSpace(self.shapes, margin)
+    def with_more(self, obstacles: Sequence[Obstacle]) -> Scene:
+        """The scene of the same world with further ``obstacles``, much quicker than a new one."""
+        more = Scene(replace(self.world, obstacles=(*self.world.obstacles, *obstacles)))
+        boxes = np.array([obstacle.box for obstacle in obstacles]).reshape(-1, 4)
+        shapes, spaces = more.shapes, self._free_spaces
+
+        def space(margin: float) -> FreeSpace:
+            return spaces(margin).with_more(shapes, boxes)
+
+        more._free_spaces = lru_cache(maxsize=8)(space)
+        return more
 
     def clearance(self, points: ArrayLike) -> NDArray[np.float64]:
         """Distances [m], shape (n,), from ``points`` (n, 2) to the nearest obstacle or map edge.
@@ -61,7 +73,7 @@ class Scene:
 
     def free_space(self, body: Body) -> FreeSpace:
         """Where a ``body`` can be in some heading, and how far it is to drive."""
-        return self._free_space(necessary_clearance(body))
+        return self._free_spaces(necessary_clearance(body))
 
 
 def _chain(motion: Motion, robot: Robot) -> tuple[Body, NDArray[np.float64], NDArray[np.float64]]:

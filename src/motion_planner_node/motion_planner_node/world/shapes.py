@@ -210,13 +210,12 @@ def _shapes(
                 following = ring[1:] + ring[:1]
                 edges += [(*a, *b) for a, b in zip(ring, following, strict=True) if a != b]
             first_edge.append(len(edges))
-            xs, ys = zip(*obstacle.corners, strict=True)
-            polygon_boxes.append((min(xs), min(ys), max(xs), max(ys)))
+            polygon_boxes.append(obstacle.box)
             polygon_names.append(obstacle.name)
         else:
             (x, y), radius = obstacle.center, obstacle.radius
             discs.append((x, y, radius))
-            disc_boxes.append((x - radius, y - radius, x + radius, y + radius))
+            disc_boxes.append(obstacle.box)
             disc_names.append(obstacle.name)
     limits = np.array([bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max], dtype=np.float64)
     all_edges = np.array(edges, dtype=np.float64).reshape(-1, 4)

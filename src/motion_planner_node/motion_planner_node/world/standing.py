@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from math import cos, sin
 
 from motion_planner_node.robots.motion import Attitude
@@ -25,11 +24,10 @@ def outline_of(robot: Robot, attitude: Attitude) -> Obstacle:
     return Polygon(robot.label, corners)
 
 
-def with_standing(world: World, standing: Mapping[str, Attitude]) -> World:
-    """The world with the robots ``standing`` in it as obstacles, under the same revision."""
+def outlines_of(world: World, standing: Mapping[str, Attitude]) -> list[Obstacle]:
+    """The robots of ``world`` that are ``standing`` somewhere, as obstacles."""
     outlines = (
         outline_of(world.robots[label], attitude) for label, attitude in sorted(standing.items())
     )
     # A robot without extent is in nobody's way.
-    solid = (shape for shape in outlines if isinstance(shape, Polygon) or shape.radius > 0.0)
-    return replace(world, obstacles=(*world.obstacles, *solid))
+    return [shape for shape in outlines if isinstance(shape, Polygon) or shape.radius > 0.0]
