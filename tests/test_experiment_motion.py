@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from experiments.motion import reference
+from experiments.motion import reference, vain
 from experiments.motion.aims import Aim, heading_error, in_goal
 from experiments.motion.asking import Outcome, ask, planner_for, request_of
 from experiments.motion.checking import Checker, constraints_of
@@ -259,6 +260,31 @@ def test_a_run_goes_on_from_what_is_kept_to_the_same_file(
     assert [known.number for known in again.known] == [0, 1, 4, 5, 8, 9, 12, 13, 16]
     assert (again.unsolved, again.unsearched) == ((2, 6, 10, 14), (3, 7, 11, 15))
     assert reference.earlier('rover', 2, tmp_path / 'once').known == ()
+
+
+def test_what_was_searched_in_vain_is_drawn_and_asked_again(
+    places: Mapping[str, Place], references: Mapping[str, Reference]
+) -> None:
+    place, kept = places['rover'], references['rover']
+    drawn = vain.drawn_again(place, kept, 5)
+    assert [one.number for one in drawn] == list(kept.unsolved[:5])
+    # Drawn in the same way, what was solved is what is kept of it.
+    solved = replace(kept, unsolved=tuple(known.number for known in kept.known[:5]))
+    for again, known in zip(vain.drawn_again(place, solved, 5), kept.known, strict=False):
+        assert replace(again, length=known.length) == known
+    figures = vain.measure(place, kept, 5)
+    assert (figures['requests'], figures['impossible'], figures['open']) == (5, 1.0, [])
+
+
+def test_verdicts_on_what_was_searched_in_vain_are_told_apart() -> None:
+    def outcome(number: int, code: str, milliseconds: float) -> Outcome:
+        return Outcome(number, 'near', math.inf, None, milliseconds, code, '', 0, ())
+
+    codes = ['UNREACHABLE', 'NO_FREE_DESTINATION', 'NO_PATH', 'NONE']
+    figures = vain.summary([outcome(k, code, float(k)) for k, code in enumerate(codes)])
+    assert [figures[key] for key in ('impossible', 'unknown', 'found')] == [0.5, 0.25, 0.25]
+    assert (figures['open'], figures['ms_p50'], figures['ms_max']) == ([2], 1.5, 3.0)
+    assert [one['number'] for one in figures['slowest']] == [3, 2, 1, 0]
 
 
 def test_the_usual_way_finds_longer_paths(

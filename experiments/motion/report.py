@@ -26,8 +26,9 @@ The figures of `make experiment-motion` on one machine, written by the experimen
   looked at in vain once more with 48 headings; words of Dubins from the states near the goal to attitudes of the goal; then local moves of the
   whole way and of its end within the goal, until nothing gets shorter. It shares no code with the motion planner. Its lengths
   are upper bounds of the shortest; where the motion planner is shorter, ratios are below 1. Requests
-  that it searched in vain are left out; how many is told. Goals that are walled off from the start, for a disc that may turn as it likes, are known
-  from cells of a 32nd of a turning radius and not searched for.
+  that it searched in vain have no length to compare with: they are asked apart from the others. Goals that are walled off
+  from the start, for a disc that may turn as it likes, are known from cells of a 32nd of a turning radius and not searched
+  for.
 - **The judge** of motions integrates the car's equations of motion and measures with shapely
   (`tests/support/vehicle.py`); ends are judged by `experiments/constraints/judge.py`.
 - **The usual way** is OMPL's RRTConnect in a Dubins space with its path simplifier, again and again until the time is
@@ -36,6 +37,10 @@ The figures of `make experiment-motion` on one machine, written by the experimen
 - **All planners** get the same legs between two attitudes. How many iterations it takes depends on the planner and the
   world: each that samples begins with few and gets twice as many until it has a path, for 3 s at most.
 """
+
+VAIN = """\
+What is impossible has a proof; what is found the reference missed, as a search at one grain proves nothing; what is left open
+(UNKNOWN) may be possible or not, and that two searches found nothing is all that is known of it."""
 
 
 def request_table(worlds: Mapping[str, Mapping[str, Any]]) -> str:
@@ -69,6 +74,25 @@ def reference_table(references: Mapping[str, Mapping[str, int]]) -> str:
         for name, figures in references.items()
     ]
     return table(('world', 'solved', 'searched exhaustively in vain', 'broken off'), rows)
+
+
+def vain_table(worlds: Mapping[str, Mapping[str, Any]]) -> str:
+    """What the motion planner says where the reference has no way."""
+    rows = [
+        (
+            name,
+            figures['requests'],
+            *(f'{figures[key]:.1%}' for key in ('impossible', 'unknown', 'found')),
+            figures['refused_motions'],
+            *(f'{figures[key]:.1f}' for key in ('ms_p50', 'ms_p95', 'ms_max')),
+        )
+        for name, figures in worlds.items()
+    ]
+    head = (
+        'world', 'requests', 'impossible, proven', 'left open', 'found', 'refused', 'ms p50', 'p95',
+        'worst',
+    )  # fmt: skip
+    return f'{table(head, rows)}\n\n{VAIN}'
 
 
 def curve_table(curve: Mapping[str, Any]) -> str:

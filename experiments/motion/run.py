@@ -22,7 +22,9 @@ from experiments.motion.worlds import ROOT, WORLDS, Place
 from experiments.results import Target, machine, write_results
 from motion_planner_node.planner import warm_up
 
-PARTS = ('requests', 'curve', 'planners', 'advice', 'stopping', 'service', 'memory', 'pictures')
+PARTS = (
+    'requests', 'vain', 'curve', 'planners', 'advice', 'stopping', 'service', 'memory', 'pictures',
+)  # fmt: skip
 PAPERS = 'rover'
 #: Worlds on whose legs ours and the usual way, and all planners, are compared.
 COMPARED = ('rover', 'maze', 'field')
@@ -35,6 +37,7 @@ class Sizes:
 
     requests, legs, compared: of each world, for the reference, for the curve, for all planners
     motions: that are judged at least, when each request has as many alternatives as are asked for
+    vain: requests of each world that the reference searched in vain, at most
     patience: [s] that RRTConnect may take for a leg
     rounds, stopped, exchanges: times that advice, deadlines and the service are tried
     asked, early: requests after which memory is looked at
@@ -42,6 +45,7 @@ class Sizes:
 
     requests: int = 1000
     motions: int = 10_500
+    vain: int = 1000
     legs: int = 80
     patience: float = 1.0
     compared: int = 24
@@ -55,6 +59,7 @@ class Sizes:
 QUICK = Sizes(
     requests=20,
     motions=100,
+    vain=10,
     legs=4,
     patience=0.3,
     compared=4,
@@ -112,6 +117,18 @@ class Experiment:
         self.targets += request_targets(worlds)
         self.show('What the reference covers', report.reference_table(coverage))
         self.show('Requests: success, length by the reference, time', report.request_table(worlds))
+
+    def run_vain(self) -> None:
+        """Ask the requests that the reference has searched in vain."""
+        from experiments.motion.vain import measure
+
+        worlds = {
+            name: measure(self.places[name], reference, self.sizes.vain)
+            for name, reference in self.references.items()
+            if reference.unsolved
+        }
+        self.figures['vain'] = worlds
+        self.show('Requests that the reference searched in vain', report.vain_table(worlds))
 
     def run_curve(self) -> None:
         """Compare with RRTConnect and simplifier."""
