@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from experiments.motion import reference, vain
 from experiments.motion.aims import Aim, heading_error, in_goal
 from experiments.motion.asking import Outcome, ask, planner_for, request_of
-from experiments.motion.checking import Checker, constraints_of
+from experiments.motion.checking import Checker, Told, constraints_of
 from experiments.motion.connected import Parts
 from experiments.motion.geometry import dubins_length, free_word, make_ground
 from experiments.motion.goals import AGENT, FIXED, FREE, TOWARDS, Goal, Ring
@@ -217,6 +217,35 @@ def test_the_checker_refuses_what_is_wrong(
     assert any(
         'obstacle' in fault for fault in faults(known.text, Motion(AGENT, motion.start, (far,)))
     )
+
+
+@pytest.mark.parametrize('world', ['rover', 'office'])
+def test_the_checker_tells_wrong_starts_and_figures(
+    places: Mapping[str, Place], references: Mapping[str, Reference], world: str
+) -> None:
+    place = places[world]
+    known = next(known for known in references[world].known if known.length > 10.0)
+    answer = planner_for(place).satisfy(request_of(known))
+    assert answer.motion is not None
+    checker, motion, told = Checker(place), answer.motion, Told.by(answer)
+
+    def faults(told: Told, motion: Motion = motion) -> list[str]:
+        return list(checker.faults(known.text, known.start, motion, answer.end[AGENT], told))
+
+    assert faults(told) == []
+    start = motion.start
+    for other in (
+        Attitude(start.x + 1e-4, start.y, start.heading),
+        Attitude(start.x, start.y, start.heading - 1e-4),
+    ):
+        (fault,) = faults(told, Motion(AGENT, other, motion.segments))
+        assert fault.startswith('starts at')
+    for name, words in (('length', 'm long'), ('duration', 'to take'), ('clearance', 'm of room')):
+        value = getattr(told, name)
+        # A clearance is sampled, so a little more or less room than is told goes unnoticed.
+        for wrong in (value - 0.1, value + 0.1, 1.1 * value + 0.1, math.inf, math.nan):
+            (fault,) = faults(told._replace(**{name: wrong}))
+            assert words in fault
 
 
 def test_constraints_are_told_from_statements() -> None:
