@@ -36,6 +36,8 @@ The figures of `make experiment-motion` on one machine, written by the experimen
   broke count as they were before.
 - **All planners** get the same legs between two attitudes. How many iterations it takes depends on the planner and the
   world: each that samples begins with few and gets twice as many until it has a path, for 3 s at most.
+- **Searches that are told to stop** are told so by a deadline or by another thread, 0 to 100 ms after they began. Beside
+  another robot, which stands at a new place each time, the free space is worked out anew within the request.
 """
 
 VAIN = """\
@@ -133,6 +135,26 @@ def planner_table(worlds: Mapping[str, Mapping[str, Any]]) -> str:
         for name, figures in measured['planners'].items()
     ]
     head = ('world', 'planner', 'success', 'ms p50', 'p95', 'length p50', 'p95')
+    return table(head, rows)
+
+
+def stopping_table(worlds: Mapping[str, Iterable[Mapping[str, Any]]]) -> str:
+    """How late answers were that were told to stop, of those that were not there by then."""
+    rows = [
+        (
+            world,
+            'yes' if row['beside_another'] else 'no',
+            row['told_by'],
+            f'{row["stopped"]} of {row["requests"]}',
+            *(f'{row[key]:.1f}' for key in ('late_ms_p50', 'late_ms_p99', 'late_ms_max')),
+        )
+        for world, told in worlds.items()
+        for row in told
+    ]
+    head = (
+        'world', 'beside another robot', 'told by', 'not answered by then', 'late ms p50', 'p99',
+        'worst',
+    )  # fmt: skip
     return table(head, rows)
 
 
