@@ -34,8 +34,9 @@ The figures of `make experiment-motion` on one machine, written by the experimen
 - **The usual way** is OMPL's RRTConnect in a Dubins space with its path simplifier, again and again until the time is
   up, the best path counting; points along motions are looked up in a map of distances. Paths that the simplifier
   broke count as they were before.
-- **All planners** get the same legs between two attitudes. How many iterations it takes depends on the planner and the
-  world: each that samples begins with few and gets twice as many until it has a path, for 3 s at most.
+- **All planners** get the same legs between two attitudes; legs that none of them solves are left out. How many
+  iterations it takes depends on the planner and the world: each that samples begins with few and gets twice as many
+  until it has a path, for 3 s at most.
 - **Searches that are told to stop** are told so by a deadline or by another thread, 0 to 100 ms after they began. Beside
   another robot, which stands at a new place each time, the free space is worked out anew within the request.
 """
@@ -122,6 +123,7 @@ def planner_table(worlds: Mapping[str, Mapping[str, Any]]) -> str:
     rows = [
         (
             world,
+            measured['legs'],
             name,
             f'{figures["success"]:.0%}',
             f'{figures["ms_p50"]:.1f}',
@@ -134,7 +136,7 @@ def planner_table(worlds: Mapping[str, Mapping[str, Any]]) -> str:
         for world, measured in worlds.items()
         for name, figures in measured['planners'].items()
     ]
-    head = ('world', 'planner', 'success', 'ms p50', 'p95', 'length p50', 'p95')
+    head = ('world', 'legs', 'planner', 'success', 'ms p50', 'p95', 'length p50', 'p95')
     return table(head, rows)
 
 
