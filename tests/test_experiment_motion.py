@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +13,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from experiments.motion import reference
+from experiments.motion import reference, vain
 from experiments.motion.aims import Aim, heading_error, in_goal
 from experiments.motion.asking import Outcome, ask, planner_for, request_of
-from experiments.motion.checking import Checker, constraints_of
+from experiments.motion.checking import Checker, Told, constraints_of
 from experiments.motion.connected import Parts
 from experiments.motion.geometry import dubins_length, free_word, make_ground
 from experiments.motion.goals import AGENT, FIXED, FREE, TOWARDS, Goal, Ring
@@ -218,6 +219,35 @@ def test_the_checker_refuses_what_is_wrong(
     )
 
 
+@pytest.mark.parametrize('world', ['rover', 'office'])
+def test_the_checker_tells_wrong_starts_and_figures(
+    places: Mapping[str, Place], references: Mapping[str, Reference], world: str
+) -> None:
+    place = places[world]
+    known = next(known for known in references[world].known if known.length > 10.0)
+    answer = planner_for(place).satisfy(request_of(known))
+    assert answer.motion is not None
+    checker, motion, told = Checker(place), answer.motion, Told.by(answer)
+
+    def faults(told: Told, motion: Motion = motion) -> list[str]:
+        return list(checker.faults(known.text, known.start, motion, answer.end[AGENT], told))
+
+    assert faults(told) == []
+    start = motion.start
+    for other in (
+        Attitude(start.x + 1e-4, start.y, start.heading),
+        Attitude(start.x, start.y, start.heading - 1e-4),
+    ):
+        (fault,) = faults(told, Motion(AGENT, other, motion.segments))
+        assert fault.startswith('starts at')
+    for name, words in (('length', 'm long'), ('duration', 'to take'), ('clearance', 'm of room')):
+        value = getattr(told, name)
+        # A clearance is sampled, so a little more or less room than is told goes unnoticed.
+        for wrong in (value - 0.1, value + 0.1, 1.1 * value + 0.1, math.inf, math.nan):
+            (fault,) = faults(told._replace(**{name: wrong}))
+            assert words in fault
+
+
 def test_constraints_are_told_from_statements() -> None:
     text = (
         '((agent robot)(object a)(distance(robot, a) <= 3)(rel_angle(robot, a) = cos-and-sin(1)))'
@@ -259,6 +289,31 @@ def test_a_run_goes_on_from_what_is_kept_to_the_same_file(
     assert [known.number for known in again.known] == [0, 1, 4, 5, 8, 9, 12, 13, 16]
     assert (again.unsolved, again.unsearched) == ((2, 6, 10, 14), (3, 7, 11, 15))
     assert reference.earlier('rover', 2, tmp_path / 'once').known == ()
+
+
+def test_what_was_searched_in_vain_is_drawn_and_asked_again(
+    places: Mapping[str, Place], references: Mapping[str, Reference]
+) -> None:
+    place, kept = places['rover'], references['rover']
+    drawn = vain.drawn_again(place, kept, 5)
+    assert [one.number for one in drawn] == list(kept.unsolved[:5])
+    # Drawn in the same way, what was solved is what is kept of it.
+    solved = replace(kept, unsolved=tuple(known.number for known in kept.known[:5]))
+    for again, known in zip(vain.drawn_again(place, solved, 5), kept.known, strict=False):
+        assert replace(again, length=known.length) == known
+    figures = vain.measure(place, kept, 5)
+    assert (figures['requests'], figures['impossible'], figures['open']) == (5, 1.0, [])
+
+
+def test_verdicts_on_what_was_searched_in_vain_are_told_apart() -> None:
+    def outcome(number: int, code: str, milliseconds: float) -> Outcome:
+        return Outcome(number, 'near', math.inf, None, milliseconds, code, '', 0, ())
+
+    codes = ['UNREACHABLE', 'NO_FREE_DESTINATION', 'NO_PATH', 'NONE']
+    figures = vain.summary([outcome(k, code, float(k)) for k, code in enumerate(codes)])
+    assert [figures[key] for key in ('impossible', 'unknown', 'found')] == [0.5, 0.25, 0.25]
+    assert (figures['open'], figures['ms_p50'], figures['ms_max']) == ([2], 1.5, 3.0)
+    assert [one['number'] for one in figures['slowest']] == [3, 2, 1, 0]
 
 
 def test_the_usual_way_finds_longer_paths(

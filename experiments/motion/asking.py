@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from experiments.motion.checking import Checker
+from experiments.motion.checking import Checker, Told
 from experiments.motion.goals import AGENT
 from experiments.motion.reference import Known
 from experiments.motion.worlds import Place
@@ -93,7 +93,8 @@ def _ask(planner: MotionPlanner, checker: Checker, known: Known, alternatives: i
 def _faults(checker: Checker, known: Known, answer: GeometricAnswer) -> list[str]:
     if answer.motion is None:
         return []
-    return list(checker.faults(known.text, known.start, answer.motion, answer.end[AGENT]))
+    end, told = answer.end[AGENT], Told.by(answer)
+    return list(checker.faults(known.text, known.start, answer.motion, end, told))
 
 
 def summary(outcomes: Sequence[Outcome]) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -14,8 +15,9 @@ from experiments.constraints.sets import ConstraintSet
 from experiments.motion.goals import AGENT, Array
 from experiments.motion.grounds import inside_obstacles, map_edges
 from experiments.motion.worlds import Place
+from motion_planner_node.requests import GeometricAnswer
 from motion_planner_node.robots.motion import Attitude, Motion
-from tests.support.vehicle import TOLERANCE, Pose, Vehicle, gap
+from tests.support.vehicle import SPACING, TOLERANCE, Pose, Vehicle, gap
 
 _PART = re.compile(r'\(((?:[^()]|\([^()]*\))*)\)')
 
@@ -24,6 +26,19 @@ def constraints_of(text: str) -> tuple[str, ...]:
     """The constraints in a text of the requests, without its statements."""
     parts = _PART.findall(text[1:-1])
     return tuple(part for part in parts if not part.startswith(('agent ', 'object ')))
+
+
+class Told(NamedTuple):
+    """What an answer says of its motion: length [m], duration [s] and clearance [m]."""
+
+    length: float
+    duration: float
+    clearance: float
+
+    @classmethod
+    def by(cls, answer: GeometricAnswer) -> Told:
+        """The figures of an answer."""
+        return cls(answer.length, answer.duration, answer.clearance)
 
 
 class Checker:
@@ -53,24 +68,45 @@ class Checker:
         constraints = ConstraintSet('', constraints_of(text), feasible=True, agents=(), objects=())
         return self._judge.violation(constraints, pose)
 
-    def faults(self, text: str, start: Pose, motion: Motion, end: Attitude) -> Iterator[str]:
+    def faults(
+        self, text: str, start: Pose, motion: Motion, end: Attitude, told: Told | None = None
+    ) -> Iterator[str]:
         """Everything that is wrong with the answer to a request, in sentences."""
-        pose = (end.x, end.y, end.heading)
+        first, pose = _pose(motion.start), _pose(end)
+        if not gap(first, start) <= TOLERANCE:
+            yield f'starts at {first}, not at {start}'
         missed = self.missed(text, pose)
         if not missed <= TOLERANCE:
             yield f'the end {pose} misses the constraints by {missed}'
         segments = [[s.steering_angle, s.length, s.direction, s.turn] for s in motion.segments]
         yield from self._vehicle.wrong_commands(segments)
         driven = self._vehicle.drive(start, segments)
-        last = (float(driven[-1, 0]), float(driven[-1, 1]), float(driven[-1, 2]))
+        last = _pose(Attitude(*driven[-1].tolist()))
         if not gap(last, pose) <= TOLERANCE:
             yield f'drives to {last}, not to {pose}'
-        needed = self._vehicle.radius - TOLERANCE
-        nearest = self._clearance(driven[:, :2], needed)
+        radius = self._vehicle.radius
+        needed = reach = radius - TOLERANCE
+        if told and math.isfinite(told.clearance):
+            reach = max(needed, told.clearance + radius + SPACING)
+        nearest = self._clearance(driven[:, :2], reach)
         if nearest < needed:
-            yield f'{nearest} m from an obstacle or the edge, not {self._vehicle.radius}'
+            yield f'{nearest} m from an obstacle or the edge, not {radius}'
         if inside_obstacles(self._place, driven[[0, -1], :2]).any():
             yield 'starts or ends inside an obstacle'
+        if told:
+            yield from self._wrong_figures(told, driven, nearest - radius)
+
+    def _wrong_figures(self, told: Told, driven: Array, clearance: float) -> Iterator[str]:
+        """Figures that are not those of attitudes ``driven`` (n, 3), whose least is ``clearance``."""
+        length = float(np.hypot(*np.diff(driven[:, :2], axis=0).T).sum())
+        # Chords are shorter than arcs, and the nearest place is between two samples.
+        slack = TOLERANCE + length * (SPACING / self._place.turning_radius) ** 2 / 20.0
+        if not -TOLERANCE <= told.length - length <= slack:
+            yield f'is told to be {told.length} m long, not {length}'
+        if not -TOLERANCE <= told.duration * self._place.robot['speed'] - length <= slack:
+            yield f'is told to take {told.duration} s for {length} m'
+        if not -TOLERANCE <= clearance - told.clearance <= 0.5 * SPACING + TOLERANCE:
+            yield f'is told to have {told.clearance} m of room, not {clearance}'
 
     def _clearance(self, points: Array, reach: float) -> float:
         """Distance [m] of the nearest of ``points`` (n, 2) to an obstacle, where it is below ``reach``."""
@@ -82,6 +118,10 @@ class Checker:
             away = np.hypot(points[:, 0] - x, points[:, 1] - y)
             nearest = min(nearest, float(away.min()) - radius)
         return nearest
+
+
+def _pose(attitude: Attitude) -> Pose:
+    return attitude.x, attitude.y, attitude.heading
 
 
 def _sides(corners: Sequence[Sequence[float]]) -> Array:

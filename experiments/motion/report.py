@@ -26,16 +26,24 @@ The figures of `make experiment-motion` on one machine, written by the experimen
   looked at in vain once more with 48 headings; words of Dubins from the states near the goal to attitudes of the goal; then local moves of the
   whole way and of its end within the goal, until nothing gets shorter. It shares no code with the motion planner. Its lengths
   are upper bounds of the shortest; where the motion planner is shorter, ratios are below 1. Requests
-  that it searched in vain are left out; how many is told. Goals that are walled off from the start, for a disc that may turn as it likes, are known
-  from cells of a 32nd of a turning radius and not searched for.
+  that it searched in vain have no length to compare with: they are asked apart from the others. Goals that are walled off
+  from the start, for a disc that may turn as it likes, are known from cells of a 32nd of a turning radius and not searched
+  for.
 - **The judge** of motions integrates the car's equations of motion and measures with shapely
   (`tests/support/vehicle.py`); ends are judged by `experiments/constraints/judge.py`.
 - **The usual way** is OMPL's RRTConnect in a Dubins space with its path simplifier, again and again until the time is
   up, the best path counting; points along motions are looked up in a map of distances. Paths that the simplifier
   broke count as they were before.
-- **All planners** get the same legs between two attitudes. How many iterations it takes depends on the planner and the
-  world: each that samples begins with few and gets twice as many until it has a path, for 3 s at most.
+- **All planners** get the same legs between two attitudes; legs that none of them solves are left out. How many
+  iterations it takes depends on the planner and the world: each that samples begins with few and gets twice as many
+  until it has a path, for 3 s at most.
+- **Searches that are told to stop** are told so by a deadline or by another thread, 0 to 100 ms after they began. Beside
+  another robot, which stands at a new place each time, the free space is worked out anew within the request.
 """
+
+VAIN = """\
+What is impossible has a proof; what is found the reference missed, as a search at one grain proves nothing; what is left open
+(UNKNOWN) may be possible or not, and that two searches found nothing is all that is known of it."""
 
 
 def request_table(worlds: Mapping[str, Mapping[str, Any]]) -> str:
@@ -71,6 +79,25 @@ def reference_table(references: Mapping[str, Mapping[str, int]]) -> str:
     return table(('world', 'solved', 'searched exhaustively in vain', 'broken off'), rows)
 
 
+def vain_table(worlds: Mapping[str, Mapping[str, Any]]) -> str:
+    """What the motion planner says where the reference has no way."""
+    rows = [
+        (
+            name,
+            figures['requests'],
+            *(f'{figures[key]:.1%}' for key in ('impossible', 'unknown', 'found')),
+            figures['refused_motions'],
+            *(f'{figures[key]:.1f}' for key in ('ms_p50', 'ms_p95', 'ms_max')),
+        )
+        for name, figures in worlds.items()
+    ]
+    head = (
+        'world', 'requests', 'impossible, proven', 'left open', 'found', 'refused', 'ms p50', 'p95',
+        'worst',
+    )  # fmt: skip
+    return f'{table(head, rows)}\n\n{VAIN}'
+
+
 def curve_table(curve: Mapping[str, Any]) -> str:
     """Ours at several budgets beside the usual way in the same time."""
     rows = [
@@ -96,6 +123,7 @@ def planner_table(worlds: Mapping[str, Mapping[str, Any]]) -> str:
     rows = [
         (
             world,
+            measured['legs'],
             name,
             f'{figures["success"]:.0%}',
             f'{figures["ms_p50"]:.1f}',
@@ -108,7 +136,27 @@ def planner_table(worlds: Mapping[str, Mapping[str, Any]]) -> str:
         for world, measured in worlds.items()
         for name, figures in measured['planners'].items()
     ]
-    head = ('world', 'planner', 'success', 'ms p50', 'p95', 'length p50', 'p95')
+    head = ('world', 'legs', 'planner', 'success', 'ms p50', 'p95', 'length p50', 'p95')
+    return table(head, rows)
+
+
+def stopping_table(worlds: Mapping[str, Iterable[Mapping[str, Any]]]) -> str:
+    """How late answers were that were told to stop, of those that were not there by then."""
+    rows = [
+        (
+            world,
+            'yes' if row['beside_another'] else 'no',
+            row['told_by'],
+            f'{row["stopped"]} of {row["requests"]}',
+            *(f'{row[key]:.1f}' for key in ('late_ms_p50', 'late_ms_p99', 'late_ms_max')),
+        )
+        for world, told in worlds.items()
+        for row in told
+    ]
+    head = (
+        'world', 'beside another robot', 'told by', 'not answered by then', 'late ms p50', 'p99',
+        'worst',
+    )  # fmt: skip
     return table(head, rows)
 
 

@@ -22,10 +22,14 @@ from experiments.motion.worlds import ROOT, WORLDS, Place
 from experiments.results import Target, machine, write_results
 from motion_planner_node.planner import warm_up
 
-PARTS = ('requests', 'curve', 'planners', 'advice', 'stopping', 'service', 'memory', 'pictures')
+PARTS = (
+    'requests', 'vain', 'curve', 'planners', 'advice', 'stopping', 'service', 'memory', 'pictures',
+)  # fmt: skip
 PAPERS = 'rover'
 #: Worlds on whose legs ours and the usual way, and all planners, are compared.
 COMPARED = ('rover', 'maze', 'field')
+#: Worlds in which searches are told to stop: the one that is searched longest, and the largest.
+STOPPED = ('maze', 'park')
 IMAGES = {'curve': 'motion_curve', 'worlds': 'motion_worlds'}
 
 
@@ -35,18 +39,21 @@ class Sizes:
 
     requests, legs, compared: of each world, for the reference, for the curve, for all planners
     motions: that are judged at least, when each request has as many alternatives as are asked for
+    vain: requests of each world that the reference searched in vain, at most
     patience: [s] that RRTConnect may take for a leg
-    rounds, stopped, exchanges: times that advice, deadlines and the service are tried
+    rounds, exchanges: times that advice and the service are tried
+    stopped: requests that are told to stop, in each world and in each way
     asked, early: requests after which memory is looked at
     """
 
     requests: int = 1000
     motions: int = 10_500
+    vain: int = 1000
     legs: int = 80
     patience: float = 1.0
     compared: int = 24
     rounds: int = 50
-    stopped: int = 250
+    stopped: int = 120
     exchanges: int = 300
     asked: int = 10_000
     early: int = 1_000
@@ -55,6 +62,7 @@ class Sizes:
 QUICK = Sizes(
     requests=20,
     motions=100,
+    vain=10,
     legs=4,
     patience=0.3,
     compared=4,
@@ -113,6 +121,18 @@ class Experiment:
         self.show('What the reference covers', report.reference_table(coverage))
         self.show('Requests: success, length by the reference, time', report.request_table(worlds))
 
+    def run_vain(self) -> None:
+        """Ask the requests that the reference has searched in vain."""
+        from experiments.motion.vain import measure
+
+        worlds = {
+            name: measure(self.places[name], reference, self.sizes.vain)
+            for name, reference in self.references.items()
+            if reference.unsolved
+        }
+        self.figures['vain'] = worlds
+        self.show('Requests that the reference searched in vain', report.vain_table(worlds))
+
     def run_curve(self) -> None:
         """Compare with RRTConnect and simplifier."""
         from experiments.motion.curve import combine, measure
@@ -158,13 +178,14 @@ class Experiment:
         """Measure how soon searches stop."""
         from experiments.motion.stopping import measure
 
-        world = 'maze' if 'maze' in self.references else PAPERS
-        stopping = measure(self.places[world], self.known(world, self.sizes.stopped))
+        stopping = {
+            name: measure(self.places[name], self.known(name, self.sizes.stopped))
+            for name in STOPPED
+            if name in self.references
+        }
         self.figures['stopping'] = stopping
-        self.targets.append(
-            Target('answer after a deadline, latest [ms]', stopping['late_ms_max'], 50.0)
-        )
-        self.show('Searches that are told to stop', report.figure_table(stopping))
+        self.targets += stopping_targets(stopping)
+        self.show('Searches that are told to stop', report.stopping_table(stopping))
 
     def run_service(self) -> None:
         """Measure requests through the service."""
@@ -236,6 +257,23 @@ def curve_targets(curve: Mapping[str, Any]) -> list[Target]:
             1.0,
             at_least=True,
         ),
+    ]
+
+
+def stopping_targets(worlds: Mapping[str, Sequence[Mapping[str, Any]]]) -> list[Target]:
+    """What was to be reached by searches that are told to stop, in the worst world."""
+    return [
+        Target(
+            f'answer after a deadline or cancel, {name}, latest [ms]',
+            max(
+                row['late_ms_max']
+                for rows in worlds.values()
+                for row in rows
+                if row['beside_another'] is beside
+            ),
+            50.0,
+        )
+        for beside, name in ((False, 'alone'), (True, 'another robot at a new place'))
     ]
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from dataclasses import fields
 from math import inf, nan, pi
 from pathlib import Path
 from typing import Any
@@ -25,6 +26,7 @@ from motion_planner_node.requests import (
     Attempt,
     CandidateAdvice,
     GeometricAnswer,
+    GeometricRequest,
     Opportunity,
     Residual,
 )
@@ -232,16 +234,35 @@ def test_a_request_arrives_as_it_was_sent() -> None:
         preconditions='((agent r))',
         start=[msg.AgentState(agent='r', x=1.0, y=2.0, heading=0.5)],
         agent='r',
+        behaviour='slowly',
         alternative=3,
+        world_revision='abc',
         seed=7,
         time_budget=2.0,
         request_id='id',
         mode='paper',
+        planner='direct',
+        preferred_end=[msg.AgentState(agent='r', x=4.0, y=5.0, heading=-0.5)],
     )
     request = conversions.request_from_msg(sent)
-    assert request.start == {'r': Attitude(1.0, 2.0, 0.5)}
-    assert (request.preconditions, request.agent, request.mode) == ('((agent r))', 'r', 'paper')
-    assert (request.alternative, request.seed, request.time_budget) == (3, 7, 2.0)
+    assert request == GeometricRequest(
+        preconditions='((agent r))',
+        start={'r': Attitude(1.0, 2.0, 0.5)},
+        agent='r',
+        behaviour='slowly',
+        alternative=3,
+        world_revision='abc',
+        seed=7,
+        time_budget=2.0,
+        request_id='id',
+        mode='paper',
+        planner='direct',
+        preferred_end={'r': Attitude(4.0, 5.0, -0.5)},
+    )
+    # Whatever is added to requests has to be sent here as well.
+    empty = GeometricRequest('')
+    names = [item.name for item in fields(GeometricRequest)]
+    assert [name for name in names if getattr(request, name) == getattr(empty, name)] == []
 
 
 def test_every_robot_becomes_a_message_with_all_of_its_model() -> None:

@@ -48,6 +48,7 @@ def test_a_whole_number_will_do_for_a_number() -> None:
         ('rounds', True, 'not True'),
         ('rounds', 1001, 'not 1001'),
         ('world', 3, 'must be a text, not 3'),
+        ('planner', 'teleport', 'must be one of default, direct, '),
         ('colour', 3, 'there is no parameter colour'),
     ],
 )
