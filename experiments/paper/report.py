@@ -39,7 +39,8 @@ def _where(seed: int) -> str:
     known = machine()
     return (
         f'Measured with seed {seed} on {known["cores"]} cores ({known["cpu"]}), Python '
-        f'{known["python"]}. Counts and lengths are the same everywhere; times are not.\n'
+        f'{known["python"]}. Counts and lengths are the same everywhere but where a clock ends the '
+        'search: optimised plans, and searches given up after their processor time. Times are not.\n'
     )
 
 
