@@ -19,6 +19,7 @@ from hypothesis import strategies as st
 from experiments.paper.best_known import kept
 from experiments.paper.growth import fitted
 from experiments.paper.lower_bound import lower_bound
+from experiments.paper.mission import DEFAULT_EXCESS, OPTIMISED_EXCESS
 from experiments.paper.orders import Costs, shortest_tours
 from experiments.paper.part import Claim, Part
 from experiments.paper.photos import PER_TILE, tiled_world
@@ -56,6 +57,13 @@ def test_no_plan_undercuts_the_bound_or_the_best_known(figures: Mapping[str, Any
     assert mission['faults'] == []
     shortest = min(method['length']['min'] for method in mission['methods'].values())
     assert mission['lower_bound'] < mission['best_known'] <= shortest
+
+
+def test_plans_are_nearly_as_short_as_the_best_known(figures: Mapping[str, Any]) -> None:
+    known = kept.read()['length']
+    methods = figures['mission']['methods']
+    assert methods['default']['length']['max'] <= (1.0 + DEFAULT_EXCESS) * known
+    assert methods['default, optimised']['length']['max'] <= (1.0 + OPTIMISED_EXCESS) * known
 
 
 def test_an_order_that_is_found_is_shorter_than_the_printed_one(figures: Mapping[str, Any]) -> None:
