@@ -26,6 +26,10 @@ class Target:
         """Whether it was reached."""
         return self.value >= self.target if self.at_least else self.value <= self.target
 
+    def figures(self) -> dict[str, Any]:
+        """For results.json and tables."""
+        return {**asdict(self), 'met': self.met}
+
     def __str__(self) -> str:
         verdict = 'met' if self.met else 'MISSED'
         side = 'at least' if self.at_least else 'at most'
@@ -57,7 +61,7 @@ def write_results(
         'date': datetime.now(timezone.utc).isoformat(timespec='seconds'),
         'seed': seed,
         'figures': dict(figures),
-        'targets': [{**asdict(target), 'met': target.met} for target in targets],
+        'targets': [target.figures() for target in targets],
     }
     path = folder / 'results.json'
     path.write_text(json.dumps(results, indent=2) + '\n', encoding='utf-8')

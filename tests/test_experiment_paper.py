@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import itertools
 import json
 import math
@@ -17,10 +18,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from experiments.paper.best_known import kept
-from experiments.paper.growth import fitted
+from experiments.paper.growth import cells, fitted
 from experiments.paper.lower_bound import lower_bound
+from experiments.paper.mission import DEFAULT_EXCESS, OPTIMISED_EXCESS
 from experiments.paper.orders import Costs, shortest_tours
-from experiments.paper.part import Claim, Part
+from experiments.paper.part import Claim, Part, write_csv
 from experiments.paper.photos import PER_TILE, tiled_world
 from experiments.paper.report import write_page
 from experiments.paper.run import main
@@ -58,6 +60,13 @@ def test_no_plan_undercuts_the_bound_or_the_best_known(figures: Mapping[str, Any
     assert mission['lower_bound'] < mission['best_known'] <= shortest
 
 
+def test_plans_are_nearly_as_short_as_the_best_known(figures: Mapping[str, Any]) -> None:
+    known = kept.read()['length']
+    methods = figures['mission']['methods']
+    assert methods['default']['length']['max'] <= (1.0 + DEFAULT_EXCESS) * known
+    assert methods['default, optimised']['length']['max'] <= (1.0 + OPTIMISED_EXCESS) * known
+
+
 def test_an_order_that_is_found_is_shorter_than_the_printed_one(figures: Mapping[str, Any]) -> None:
     lengths = {name: m['length']['max'] for name, m in figures['mission']['methods'].items()}
     assert (
@@ -66,8 +75,11 @@ def test_an_order_that_is_found_is_shorter_than_the_printed_one(figures: Mapping
 
 
 def test_geometry_beforehand_takes_many_more_requests(figures: Mapping[str, Any]) -> None:
-    for count, methods in figures['messages']['sizes'].items():
+    for count, told in figures['messages']['sizes'].items():
         photos = int(count)
+        methods = {
+            name: {key: figure['median'] for key, figure in of.items()} for name, of in told.items()
+        }
         assert methods['tour']['requests'] < 2 * (photos + 1)
         assert methods['all beforehand']['requests'] > photos * methods['tour']['requests']
         assert methods['tour']['backtracks'] <= methods['no advice']['backtracks']
@@ -81,7 +93,49 @@ def test_requests_grow_in_proportion_to_goals(figures: Mapping[str, Any]) -> Non
     # One for each action of a first plan, and twice as many and a few for what is met on the way.
     for count, told in sizes.items():
         assert told['requests']['max'] <= 3 * (int(count) + 1) + 8
-    assert figures['growth']['exponents']['length'] < 1.3
+    assert figures['growth']['exponents']['length_median'] < 1.3
+
+
+def rows_of(path: Path) -> list[dict[str, str]]:
+    with path.open(encoding='utf-8') as file:
+        return list(csv.DictReader(file))
+
+
+@pytest.mark.parametrize(
+    ('table', 'words'),
+    [('mission/lengths', {'way'}), ('messages/messages', {'method'}), ('growth/growth', set())],
+)
+def test_tables_for_programs_hold_numbers(run: Path, table: str, words: set[str]) -> None:
+    rows = rows_of(run / f'{table}.csv')
+    assert {'length_median', 'length_min', 'length_max', 'planning_time_median'} <= set(rows[0])
+    for row in rows:
+        for name in set(row) - words:
+            assert row[name] == '' or math.isfinite(float(row[name]))
+
+
+def test_targets_are_a_table_for_programs(run: Path, figures: Mapping[str, Any]) -> None:
+    values = {row['name']: float(row['value']) for row in rows_of(run / 'targets.csv')}
+    excess = figures['mission']['methods']['default']['length']['median'] / kept.read()['length']
+    assert values['default: length over the best known, median'] == pytest.approx(excess - 1.0)
+
+
+def test_each_node_has_its_own_memory(tmp_path: Path) -> None:
+    memory = {'motion_planner_node': 1.0, 'interface_node': 2.0, 'task_planner_node': 3.0}
+    told = {'unsolved': 1, 'memory_mb': memory}
+    shown = cells(8, told)
+    assert shown['memory: task planner [MB]'] == '3'
+    assert shown['memory: motion planner [MB]'] == '1'
+    assert shown['memory: interface [MB]'] == '2'
+    (row,) = rows_of(write_csv(tmp_path / 'growth.csv', [told]))
+    assert {name: float(row[f'memory_mb_{name}']) for name in memory} == memory
+
+
+def test_a_table_has_a_column_for_each_name_of_any_record(tmp_path: Path) -> None:
+    records: list[dict[str, Any]] = [{'way': 'a'}, {'way': 'b', 'length': {'min': 1.0, 'max': 2.0}}]
+    assert rows_of(write_csv(tmp_path / 'table.csv', records)) == [
+        {'way': 'a', 'length_min': '', 'length_max': ''},
+        {'way': 'b', 'length_min': '1.0', 'length_max': '2.0'},
+    ]
 
 
 def test_the_page_shows_claims_tables_and_pictures(run: Path) -> None:
@@ -189,5 +243,5 @@ def test_larger_worlds_are_as_dense_as_the_papers() -> None:
 
 
 def test_the_exponent_is_that_of_a_power() -> None:
-    told = {n: {'time': {'median': 0.01 * n**1.5}} for n in (8, 16, 32)}
-    assert fitted(told, 'time') == pytest.approx(1.5)
+    told = [{'photos': n, 'time': 0.01 * n**1.5} for n in (8, 16, 32)]
+    assert fitted([*told, {'photos': 64}], 'time') == pytest.approx(1.5)

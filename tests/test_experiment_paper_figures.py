@@ -198,6 +198,26 @@ def test_the_hybrid_drives_less(trials: dict[str, list[Trial]]) -> None:
         assert all(ratio.least >= 1.0 - 1e-9 for ratio in found.length_ratios.values())
 
 
+def test_tables_for_programs_hold_every_method_and_size(
+    measured: tuple[Part, Path], all_trials: Trials
+) -> None:
+    _, folder = measured
+    with (folder / 'comparisons.csv').open(encoding='utf-8') as file:
+        rows = {(row['graph'], row['method']): row for row in csv.DictReader(file)}
+    assert set(rows) == set(all_trials)
+    for key, row in rows.items():
+        assert int(row['trials']) == len(all_trials[key])
+        assert float(row['seconds_per_goal_lower']) <= float(row['seconds_per_goal_upper'])
+    with (folder / 'length_ratios.csv').open(encoding='utf-8') as file:
+        ratios = {(r['graph'], r['method'], int(r['goals'])): r for r in csv.DictReader(file)}
+    for graph, method in all_trials:
+        for trial in all_trials[graph, method]:
+            (twin,) = (t for t in all_trials[graph, 'hybrid, linear'] if t.goals == trial.goals)
+            for column in ('ratio_lower', 'ratio_median', 'ratio_upper'):
+                ratio = float(ratios[graph, method, trial.goals][column])
+                assert ratio == pytest.approx(trial.length / twin.length)
+
+
 def test_attitudes_make_ways_shorter_than_from_waypoint_to_waypoint(all_trials: Trials) -> None:
     driven = all_trials['swapped', ATTITUDES_NAME]
     paths = all_trials['swapped', 'hybrid, linear']
@@ -232,6 +252,6 @@ def test_the_part_tells_what_was_measured(measured: tuple[Part, Path], all_trial
     assert all(method in part.text for _, method in all_trials)
     assert len(all_trials) == 2 * len(METHODS) + 1
     assert all(len(members) == 2 for members in all_trials.values())
-    for name in ('graphs', 'figure_6', 'figure_7'):
+    for name in ('graphs', 'figure_6', 'figure_7', 'length_ratios'):
         assert (folder / f'{name}.svg').stat().st_size > 0
         assert (folder / f'{name}.png').read_bytes().startswith(b'\x89PNG')

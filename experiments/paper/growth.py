@@ -15,9 +15,10 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 
-from experiments.paper.part import Part, write_csv
+from experiments.paper.part import Part, flat, write_csv
 from experiments.paper.photos import WARM_UP, write_mission
 from experiments.paper.report import table
+from experiments.pictures.scales import plain_logarithms
 from experiments.planning import Nodes, NotSolvedError, nodes_up, spread, summary
 from experiments.results import Target
 
@@ -25,11 +26,19 @@ from experiments.results import Target
 MANY, MANY_TIME = 256, 60.0
 #: [s] that a search may take here, so that what takes longer than the target is seen, too.
 BUDGET = 300.0
-#: Curves of the picture and what they are called.
-CURVES = {
-    'planning_time': 'planning time',
-    'search_time': 'in the task planner',
-    'request_time': 'in the motion planner',
+#: Panels of the picture by their axes: columns of growth.csv and what they are called.
+PANELS = {
+    'median time [s]': {
+        'planning_time_median': 'planning time',
+        'search_time_median': 'in the task planner',
+        'request_time_median': 'in the motion planner',
+    },
+    'median length [m]': {'length_median': 'length'},
+    'greatest memory [MB]': {
+        'memory_mb_task_planner_node': 'task planner',
+        'memory_mb_motion_planner_node': 'motion planner',
+        'memory_mb_interface_node': 'interface',
+    },
 }
 
 
@@ -54,16 +63,13 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
             plans = _plans(nodes, count, sizes.missions, seed, folder)
             figures[count] = _figures(plans, sizes.missions) | {'memory_mb': nodes.memory()}
             print(f'  {count} photos: {_told(figures[count], "planning_time", 2)} s', flush=True)
-    exponents = {key: fitted(figures, key) for key in (*CURVES, 'length', 'requests')}
-    rows = [_row(count, told) for count, told in figures.items()]
-    head = (
-        *('photos', 'planning time [s]', 'in the task planner [s]', 'in the motion planner [s]'),
-        *('requests', 'advices', 'length [m]', 'unsolved'),
-        'memory of motion planner, task planner, interface [MB]',
-    )
-    write_csv(folder / 'growth.csv', head, rows)
+    records = [flat({'photos': count, **told}) for count, told in figures.items()]
+    write_csv(folder / 'growth.csv', records)
+    columns = [column for curves in PANELS.values() for column in curves]
+    exponents = {column: fitted(records, column) for column in (*columns, 'requests_median')}
     picture = folder / 'growth.png'
-    draw(figures, exponents, picture)
+    draw(records, exponents, picture)
+    rows = [cells(count, told) for count, told in figures.items()]
     targets = []
     if MANY in figures:
         told = figures[MANY]
@@ -77,40 +83,38 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
         ]
     return Part(
         title='Growth with the number of goals',
-        text=_text(sizes, table(head, rows), exponents),
+        text=_text(sizes, table(list(rows[0]), [list(row.values()) for row in rows]), exponents),
         figures={'sizes': figures, 'exponents': exponents},
         targets=targets,
         pictures=[picture],
     )
 
 
-def fitted(figures: Mapping[int, Mapping[str, Any]], key: str) -> float:
-    """The exponent e with which the median of a figure grows as the number of goals to the e.
+def fitted(records: Sequence[Mapping[str, Any]], column: str) -> float:
+    """The exponent e with which a figure grows as the number of goals to the e.
 
-    Least squares in logarithms over the sizes that have plans; NaN where these are less than two.
+    Least squares in logarithms over the sizes that have the figure; NaN where these are less than two.
     """
-    solved = [(count, told[key]['median']) for count, told in figures.items() if key in told]
-    if len(solved) < 2:
+    known = [(told['photos'], told[column]) for told in records if column in told]
+    if len(known) < 2:
         return math.nan
-    goals, medians = np.log(np.array(solved, float)).T
-    return float(np.polyfit(goals, medians, 1)[0])
+    goals, values = np.log(np.array(known, float)).T
+    return float(np.polyfit(goals, values, 1)[0])
 
 
-def draw(
-    figures: Mapping[int, Mapping[str, Any]], exponents: Mapping[str, float], path: Path
-) -> None:
-    """Times by the number of goals, both on logarithmic scales, with the fitted exponents."""
-    figure, axes = plt.subplots(figsize=(6.4, 4.0))
-    for key, name in CURVES.items():
-        solved = [(count, told[key]['median']) for count, told in figures.items() if key in told]
-        goals, medians = zip(*solved, strict=True)
-        axes.plot(goals, medians, 'o-', label=f'{name}: goals to the {exponents[key]:.2f}')
-    axes.set(xscale='log', yscale='log', xlabel='photos', ylabel='median time [s]')
-    axes.set_xticks(list(figures), [str(count) for count in figures])
-    axes.minorticks_off()
-    axes.grid(alpha=0.3)
-    axes.legend()
-    figure.tight_layout()
+def draw(records: Sequence[Mapping[str, Any]], exponents: Mapping[str, float], path: Path) -> None:
+    """Times, length and memory by the number of goals, on logarithmic scales, with the exponents."""
+    figure, panels = plt.subplots(1, len(PANELS), figsize=(12.0, 4.6), layout='constrained')
+    counts = [told['photos'] for told in records]
+    for axes, (label, curves) in zip(panels, PANELS.items(), strict=True):
+        for column, name in curves.items():
+            values = [told.get(column, math.nan) for told in records]
+            axes.plot(counts, values, 'o-', label=f'{name}: goals to the {exponents[column]:.2f}')
+        axes.set(xscale='log', xlabel='photos', ylabel=label)
+        axes.set_xticks(counts, [str(count) for count in counts])
+        plain_logarithms(axes)
+        axes.grid(alpha=0.3)
+        axes.legend(loc='lower left', bbox_to_anchor=(0.0, 1.0), frameon=False, fontsize=9)
     figure.savefig(path, dpi=100)
     plt.close(figure)
 
@@ -137,15 +141,22 @@ def _told(told: Mapping[str, Any], key: str, digits: int = 0) -> str:
     return spread(told[key], digits) if key in told else 'none'
 
 
-def _row(count: int, told: Mapping[str, Any]) -> Sequence[str]:
-    memory = ', '.join(f'{told["memory_mb"][node]:.0f}' for node in sorted(told['memory_mb']))
-    return (
-        str(count),
-        *(_told(told, key, 2) for key in CURVES),
-        *(_told(told, key) for key in ('requests', 'advices', 'length')),
-        str(told['unsolved']),
-        memory,
-    )
+def cells(count: int, told: Mapping[str, Any]) -> dict[str, str]:
+    """The line of the table for one size, by its headings."""
+    memory = {node: f'{peak:.0f}' for node, peak in told['memory_mb'].items()}
+    return {
+        'photos': str(count),
+        'planning time [s]': _told(told, 'planning_time', 2),
+        'in the task planner [s]': _told(told, 'search_time', 2),
+        'in the motion planner [s]': _told(told, 'request_time', 2),
+        'requests': _told(told, 'requests'),
+        'advices': _told(told, 'advices'),
+        'length [m]': _told(told, 'length'),
+        'unsolved': str(told['unsolved']),
+        'memory: task planner [MB]': memory['task_planner_node'],
+        'memory: motion planner [MB]': memory['motion_planner_node'],
+        'memory: interface [MB]': memory['interface_node'],
+    }
 
 
 def _text(sizes: Sizes, lines: str, exponents: Mapping[str, float]) -> str:
@@ -156,7 +167,8 @@ to greatest. Memory is the most that each node has had resident so far; the smal
 
 {lines}
 
-The planning time grows as the number of photos to the {exponents['planning_time']:.2f}, what is spent in the motion planner as its power {exponents['request_time']:.2f}, and in
-the task planner as its power {exponents['search_time']:.2f} (least squares over the medians, in logarithms). The length grows as its power {exponents['length']:.2f}, the requests as
-its power {exponents['requests']:.2f}.
+The planning time grows as the number of photos to the {exponents['planning_time_median']:.2f}, what is spent in the motion planner as its power
+{exponents['request_time_median']:.2f}, and in the task planner as its power {exponents['search_time_median']:.2f} (least squares over the medians, in logarithms). The length
+grows as its power {exponents['length_median']:.2f}, the requests as its power {exponents['requests_median']:.2f}. The memory, with what a node holds before any mission, grows as the power
+{exponents['memory_mb_task_planner_node']:.2f} in the task planner, {exponents['memory_mb_motion_planner_node']:.2f} in the motion planner and {exponents['memory_mb_interface_node']:.2f} in the interface.
 """

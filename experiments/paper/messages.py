@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import statistics
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from experiments.paper.beforehand import plan_beforehand
 from experiments.paper.part import Claim, Part, write_csv
 from experiments.paper.photos import WARM_UP, write_mission
 from experiments.paper.report import table
-from experiments.planning import COUNTS, nodes_up
+from experiments.planning import COUNTS, middle_and_ends, nodes_up
 
 #: Options of geohtn by the names of the methods.
 METHODS: Mapping[str, tuple[str, ...]] = {
@@ -21,6 +21,8 @@ METHODS: Mapping[str, tuple[str, ...]] = {
 }
 BEFOREHAND = 'all beforehand'
 COLUMNS = (*COUNTS, 'planning_time', 'length')
+#: Median, least and greatest of each column, by the names of the methods.
+Figures = dict[str, dict[str, dict[str, float]]]
 
 
 @dataclass(frozen=True)
@@ -38,7 +40,7 @@ QUICK = Sizes(goals=(4,), sets=1, alternatives=2)
 
 def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
     """Plan the same random missions in every way, and count."""
-    figures: dict[int, dict[str, dict[str, float]]] = {}
+    figures: dict[int, Figures] = {}
     with nodes_up(folder / 'plan') as nodes:
         nodes.plan(write_mission(folder / 'warm_up', WARM_UP, seed), seed)
         for count in sizes.goals:
@@ -55,20 +57,24 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
                     plan_beforehand(nodes.namespace, count, sizes.alternatives, seed + len(METHODS))
                 )
             figures[count] = {
-                name: {key: statistics.median(row[key] for row in rows) for key in COLUMNS}
+                name: {key: middle_and_ends([row[key] for row in rows]) for key in COLUMNS}
                 for name, rows in found.items()
             }
-            asked = figures[count][BEFOREHAND]['requests'], figures[count]['tour']['requests']
+            asked = [figures[count][name]['requests']['median'] for name in (BEFOREHAND, 'tour')]
             print(
                 f'  {count} photos: {asked[0]:.0f} requests beforehand, {asked[1]:.0f} when needed'
             )
-    rows = [
-        (f'{count}, {name}', *(_cell(key, median[key]) for key in COLUMNS))
+    records: list[dict[str, Any]] = [
+        {'photos': count, 'method': name, **told}
         for count, methods in figures.items()
-        for name, median in methods.items()
+        for name, told in methods.items()
+    ]
+    write_csv(folder / 'messages.csv', records)
+    rows = [
+        (f'{told["photos"]}, {told["method"]}', *(_cell(key, told[key]) for key in COLUMNS))
+        for told in records
     ]
     head = ('photos, method', *(_heading(key) for key in COLUMNS))
-    write_csv(folder / 'messages.csv', head, rows)
     return Part(
         title='Messages, and geometry asked for beforehand',
         text=_text(sizes, table(head, rows)),
@@ -77,10 +83,12 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
     )
 
 
-def _claims(figures: Mapping[int, Mapping[str, Mapping[str, float]]]) -> tuple[Claim, ...]:
+def _claims(figures: Mapping[int, Figures]) -> tuple[Claim, ...]:
     count = max(figures)
-    lazy, all_of_it = figures[count]['tour'], figures[count][BEFOREHAND]
-    without = figures[count]['no advice']
+    lazy, all_of_it, without = (
+        {key: figure['median'] for key, figure in figures[count][name].items()}
+        for name in ('tour', BEFOREHAND, 'no advice')
+    )
     return (
         Claim(
             'With geometric preprocessing "geometric computations are performed even for actions that '
@@ -102,8 +110,8 @@ def _heading(key: str) -> str:
     return key.replace('_', ' ') + units.get(key, '')
 
 
-def _cell(key: str, value: float) -> str:
-    return f'{value:.2f}' if key == 'planning_time' else f'{value:.0f}'
+def _cell(key: str, figure: Mapping[str, float]) -> str:
+    return f'{figure["median"]:.{2 if key == "planning_time" else 0}f}'
 
 
 def _text(sizes: Sizes, lines: str) -> str:

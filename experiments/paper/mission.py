@@ -17,7 +17,7 @@ from experiments.paper.lower_bound import lower_bound, outlines
 from experiments.paper.part import Claim, Part, write_csv
 from experiments.paper.photos import WARM_UP, problem, write_mission
 from experiments.paper.report import table
-from experiments.planning import Nodes, nodes_up, spread, summary
+from experiments.planning import Nodes, middle_and_ends, nodes_up, spread, summary
 from experiments.results import Target
 from interface_node.command_line.solution import solution_plan
 from interface_node.plan import Step
@@ -82,12 +82,12 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
     symbolic = solution_plan(Step(tuple(step['action'])) for step in default['steps'])
     known = kept.read()
     bound = rover_bound(sizes.arc)
-    rows = _rows(methods, known['length'], bound)
-    write_csv(folder / 'lengths.csv', ('way', 'length [m]', 'of the best known', 'time [s]'), rows)
+    ways = _ways(methods, known['length'], bound)
+    write_csv(folder / 'lengths.csv', ways)
     excess = {name: _excess(figures, known['length']) for name, figures in methods.items()}
     return Part(
         title='The mission of Figure 5',
-        text=_text(rows, symbolic, sizes, known, methods[DEFAULT]) + _gained(default, optimised),
+        text=_text(ways, symbolic, sizes, known, methods[DEFAULT]) + _gained(default, optimised),
         figures={
             'methods': methods,
             'best_known': known['length'],
@@ -172,25 +172,30 @@ def _excess(figures: Mapping[str, Mapping[str, float]], known: float) -> float:
     return figures['length']['median'] / known - 1.0
 
 
-def _rows(
+def _ways(
     methods: Mapping[str, Mapping[str, Mapping[str, float]]], known: float, bound: float
-) -> list[tuple[str, str, str, str]]:
-    rows = [
-        (
-            name,
-            spread(figures['length']),
-            f'{figures["length"]["median"] / known:.3f}',
-            spread(figures['planning_time'], 2),
-        )
+) -> list[dict[str, Any]]:
+    """Lengths and times, the longest way first."""
+    found: list[dict[str, Any]] = [
+        {'way': name, **{key: figures[key] for key in ('length', 'planning_time')}}
         for name, figures in sorted(methods.items(), key=lambda item: -item[1]['length']['median'])
     ]
-    rows.append(('best known', f'{known:.0f}', '1.000', ''))
-    rows.append(('lower bound', f'{bound:.0f}', f'{bound / known:.3f}', ''))
-    return rows
+    found.append({'way': 'best known', 'length': middle_and_ends([known])})
+    found.append({'way': 'lower bound', 'length': middle_and_ends([bound])})
+    return [way | {'of_the_best_known': way['length']['median'] / known} for way in found]
+
+
+def _row(way: Mapping[str, Any]) -> tuple[str, str, str, str]:
+    return (
+        way['way'],
+        spread(way['length']),
+        f'{way["of_the_best_known"]:.3f}',
+        spread(way['planning_time'], 2) if 'planning_time' in way else '',
+    )
 
 
 def _text(
-    rows: Sequence[Sequence[str]],
+    ways: Sequence[Mapping[str, Any]],
     symbolic: Sequence[str],
     sizes: Sizes,
     known: Mapping[str, Any],
@@ -211,7 +216,7 @@ The three nodes plan the mission `rover` in each way with {sizes.seeds} seeds; m
 planned first, when the nodes know nothing of this world yet. Every plan is judged by the independent
 checker of the tests (`tests/support/checker.py`), which shares no code with the planner.
 
-{table(head, rows)}
+{table(head, map(_row, ways))}
 
 - **The printed order** is that of the paper's plan, 1 to 8, as ordered tasks. Attitudes and motions are free.
 - **Nearest first** is `--guidance nearest_first`; **default** asks for a tour ([ordering.md](ordering.md)); **optimised** is `--optimise` with

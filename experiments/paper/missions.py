@@ -87,8 +87,7 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
             picture = folder / f'mission_{mission}.png'
             shutil.copyfile(folder / 'missions' / f'{mission}-{seed}' / 'mission.png', picture)
             pictures.append(picture)
-    head = tuple(asdict(plans[0]))
-    table = write_csv(folder / 'missions.csv', head, [list(asdict(p).values()) for p in plans])
+    table = write_csv(folder / 'missions.csv', map(asdict, plans))
     return Part(
         title='Other missions',
         text=_text(plans, table),

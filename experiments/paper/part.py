@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -37,11 +37,23 @@ class Part:
     pictures: Sequence[Path] = field(default=())
 
 
-def write_csv(path: Path, head: Sequence[str], rows: Sequence[Sequence[object]]) -> Path:
-    """Write a table for programs and return its path."""
+def flat(record: Mapping[str, Any]) -> dict[str, Any]:
+    """A record without parts: of a ``length`` with a ``median`` comes ``length_median``."""
+    columns: dict[str, Any] = {}
+    for name, value in record.items():
+        if isinstance(value, Mapping):
+            columns |= {f'{name}_{part}': each for part, each in flat(value).items()}
+        else:
+            columns[name] = value
+    return columns
+
+
+def write_csv(path: Path, records: Iterable[Mapping[str, Any]]) -> Path:
+    """Write a table for programs, with a column for each name in the flat records; return its path."""
+    rows = [flat(record) for record in records]
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.open('w', newline='', encoding='utf-8') as file:
-        writer = csv.writer(file)
-        writer.writerow(head)
+        writer = csv.DictWriter(file, list(dict.fromkeys(name for row in rows for name in row)))
+        writer.writeheader()
         writer.writerows(rows)
     return path

@@ -12,7 +12,8 @@ from experiments.results import machine
 HEAD = """# The paper's experiments, and beyond
 
 `make experiment-paper` measures everything on this page, and `ros2_ws/run python -m experiments.paper.run --page` writes it anew. The same
-figures for programs, and more of them, are then in `out/experiments/paper/`: `results.json`, a CSV file for each table, pictures.
+figures for programs, and more of them, are then in `out/experiments/paper/`: `results.json`, CSV files with a column for each median, extreme
+or quartile (lengths in metres, times in seconds), pictures.
 [paper-to-code.md](paper-to-code.md) says where the paper's ideas live in the code.
 """
 
@@ -39,7 +40,8 @@ def _where(seed: int) -> str:
     known = machine()
     return (
         f'Measured with seed {seed} on {known["cores"]} cores ({known["cpu"]}), Python '
-        f'{known["python"]}. Counts and lengths are the same everywhere; times are not.\n'
+        f'{known["python"]}. Counts and lengths are the same everywhere but where a clock ends the '
+        'search: optimised plans, and searches given up after their processor time. Times are not.\n'
     )
 
 

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from experiments.paper.part import Part
+from experiments.paper.part import Part, write_csv
 from experiments.paper.report import write_page
 from experiments.results import Target, write_results
 
@@ -89,6 +89,7 @@ def main(arguments: Iterable[str] | None = None) -> None:
     figures = {name: part.figures for name, part in parts.items()}
     targets: list[Target] = [target for part in parts.values() for target in part.targets]
     print(f'written: {write_results(wanted.output, wanted.seed, figures, targets)}')
+    write_csv(wanted.output / 'targets.csv', [target.figures() for target in targets])
     if wanted.page:
         print(f'written: {write_page(wanted.page, parts, wanted.seed)}')
     for target in targets:

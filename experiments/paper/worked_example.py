@@ -87,9 +87,7 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
     """Run the example, check the derivatives, draw the landscape."""
     worked = example()
     checked = checks(sizes.states, seed)
-    write_csv(
-        folder / 'table_2.csv', list(asdict(checked[0])), [[*asdict(c).values()] for c in checked]
-    )
+    write_csv(folder / 'table_2.csv', map(asdict, checked))
     picture, steps = penalty.draw(folder / 'penalty', sizes.cells, sizes.descents, seed)
     missed = {mode: penalty.violations(mode, sizes.descents, seed) for mode in penalty.MODES}
     wrong = max(check.printed for check in checked if not isnan(check.printed))

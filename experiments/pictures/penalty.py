@@ -90,7 +90,7 @@ def draw(stem: Path, cells: int, count: int, seed: int) -> tuple[Path, dict[str,
     """
     x, y = FIELD.grid(cells)
     program = FIELD.program(PHOTO)
-    figure, panels = plt.subplots(2, 2, figsize=(12.5, 10.4), layout='constrained')
+    figure, panels = plt.subplots(2, 2, figsize=(12.5, 10.4), layout='compressed')
     steps: dict[str, list[int]] = {mode: [] for mode in MODES}
     for mode, row in zip(MODES, panels, strict=True):
         fixed = paper_field if mode == 'paper' else at_heading
@@ -99,6 +99,7 @@ def draw(stem: Path, cells: int, count: int, seed: int) -> tuple[Path, dict[str,
             shade(axes, x, y, field, LEVELS)
             place = 'at the best heading' if heading is None else 'at heading 0'
             FIELD.prepare(axes, f'{mode} mode: F {place}')
+            axes.label_outer()
             drawn = descents(mode, starts(count, seed, heading))
             draw_descents(axes, drawn, ARROW)
             steps[mode] += [len(states) - 1 for states in drawn]

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from dataclasses import dataclass
+from dataclasses import asdict
 from pathlib import Path
 
 from experiments.paper.methods.graphs import Graph, literal_graph, rover_world, visibility_graph
-from experiments.paper.methods.pictures import draw_figure_6, draw_figure_7, draw_graphs
+from experiments.paper.methods.pictures import (
+    draw_figure_6,
+    draw_figure_7,
+    draw_graphs,
+    draw_length_ratios,
+)
 from experiments.paper.methods.summary import Comparison, compare
 from experiments.paper.methods.text import claims_of, text_of
 from experiments.paper.methods.trials import (
     Bench,
+    Sizes,
     Trial,
     run_attitudes,
     run_paper_methods,
@@ -22,21 +28,6 @@ from experiments.results import Target
 #: The paper's 50 s against 4 s for an added goal.
 SLOPE_RATIO = 12.0
 Trials = dict[tuple[str, str], list[Trial]]
-
-
-@dataclass(frozen=True)
-class Sizes:
-    """How much is measured.
-
-    goals: numbers of goals; few: those with which indexed symbolic search and the variants are tried
-    sets: random sets of goals for each number
-    limit: [s] of processor time after which a search is given up
-    """
-
-    goals: tuple[int, ...]
-    few: tuple[int, ...]
-    sets: int
-    limit: float
 
 
 FULL = Sizes(tuple(range(1, 16)), (1, 8, 15), 20, 2.0)
@@ -56,20 +47,21 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
     bench = Bench(dense, seed, sizes.limit)
     for trial in run_attitudes(bench, world, sizes.goals, sizes.sets):
         trials[trial.graph, trial.method].append(trial)
-    write_csv(
-        folder / 'trials.csv',
-        list(Trial.__dataclass_fields__),
-        [trial.row() for members in trials.values() for trial in members],
-    )
     compared = comparisons(graphs, trials)
+    overall = [one.figures() for one in compared]
+    lengths = [row for one in compared for row in one.lengths()]
+    write_csv(folder / 'trials.csv', (asdict(t) for members in trials.values() for t in members))
+    write_csv(folder / 'comparisons.csv', overall)
+    write_csv(folder / 'length_ratios.csv', lengths)
     pictures = (
         draw_graphs(graphs, world, folder / 'graphs'),
         draw_figure_6(graphs, trials, folder / 'figure_6'),
         draw_figure_7(graphs, trials, folder / 'figure_7'),
+        draw_length_ratios(graphs, compared, folder / 'length_ratios'),
     )
     return Part(
         'Three methods on problems of growing size (Figures 6 and 7)',
-        text_of(graphs, compared, sizes.sets, len(sizes.goals), sizes.limit),
+        text_of(graphs, compared, sizes),
         {
             'graphs': {
                 graph.name: {
@@ -79,7 +71,8 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
                 }
                 for graph in graphs
             },
-            'comparisons': [comparison.figures() for comparison in compared],
+            'comparisons': overall,
+            'length_ratios': lengths,
         },
         targets_of(compared, len(sizes.goals)),
         claims_of(compared, len(sizes.goals)),

@@ -17,8 +17,9 @@ from matplotlib.patches import Circle as Disc
 from matplotlib.patches import Polygon as Outline
 
 from experiments.paper.methods.graphs import START, Graph
-from experiments.paper.methods.summary import by_size, spread
+from experiments.paper.methods.summary import Comparison, Spread, by_size, spread
 from experiments.paper.methods.trials import ATTITUDES_NAME, Trial
+from experiments.pictures.scales import plain_logarithms
 from motion_planner_node.world.model import Polygon, World
 
 COLOURS = {'blind': 'tab:blue', 'nearest first': 'tab:orange', 'hybrid': 'tab:green'}
@@ -26,6 +27,9 @@ TITLES = {
     'swapped': 'swapped reading: {} vertices, {} arcs',
     'literal': 'literal reading: {} vertices, {} arcs',
 }
+Trials = Mapping[tuple[str, str], Sequence[Trial]]
+#: The spread of a figure by the number of goals, by graph and method.
+Curves = Mapping[tuple[str, str], Mapping[int, Spread]]
 
 
 def save(figure: Figure, stem: Path) -> Path:
@@ -66,39 +70,54 @@ def draw_graphs(graphs: Sequence[Graph], world: World, stem: Path) -> Path:
     return save(figure, stem)
 
 
-def draw_figure_6(
-    graphs: Sequence[Graph], trials: Mapping[tuple[str, str], Sequence[Trial]], stem: Path
-) -> Path:
+def draw_figure_6(graphs: Sequence[Graph], trials: Trials, stem: Path) -> Path:
     """Processor time by the number of goals."""
-    return _draw(
-        graphs, trials, stem, 'processor time of the search [s]', lambda trial: trial.seconds
-    )
+    curves = _curves(trials, lambda trial: trial.seconds)
+    return save(_drawn(graphs, curves, 'processor time of the search [s]'), stem)
 
 
-def draw_figure_7(
-    graphs: Sequence[Graph], trials: Mapping[tuple[str, str], Sequence[Trial]], stem: Path
-) -> Path:
+def draw_figure_7(graphs: Sequence[Graph], trials: Trials, stem: Path) -> Path:
     """Distance by the number of goals."""
-    linear = {key: kept for key, kept in trials.items() if not key[1].endswith('indexed')}
-    return _draw(graphs, linear, stem, 'distance [m]', lambda trial: trial.length)
+    curves = _without_indexed(_curves(trials, lambda trial: trial.length))
+    return save(_drawn(graphs, curves, 'distance [m]'), stem)
 
 
-def _draw(
-    graphs: Sequence[Graph],
-    trials: Mapping[tuple[str, str], Sequence[Trial]],
-    stem: Path,
-    label: str,
-    value: Callable[[Trial], float],
-) -> Path:
+def draw_length_ratios(graphs: Sequence[Graph], compared: Sequence[Comparison], stem: Path) -> Path:
+    """Distance over the hybrid's, set by set, by the number of goals."""
+    curves = _without_indexed({(one.graph, one.method): one.length_ratios for one in compared})
+    figure = _drawn(graphs, curves, "distance over the hybrid's", shared=False)
+    for axes in figure.axes:
+        plain_logarithms(axes)
+    return save(figure, stem)
+
+
+def _curves(trials: Trials, value: Callable[[Trial], float]) -> Curves:
+    """The spread over the trials with a plan."""
+    return {
+        key: {
+            goals: spread(value(trial) for trial in group)
+            for goals, group in by_size(trial for trial in members if trial.solved).items()
+        }
+        for key, members in trials.items()
+    }
+
+
+def _without_indexed(curves: Curves) -> Curves:
+    """Matching does not change lengths."""
+    return {key: curve for key, curve in curves.items() if not key[1].endswith('indexed')}
+
+
+def _drawn(graphs: Sequence[Graph], curves: Curves, label: str, *, shared: bool = True) -> Figure:
+    """A panel for each graph, with the paper's three methods and the whole hybrid."""
     figure, panels = plt.subplots(
-        1, len(graphs), figsize=(12.0, 5.4), layout='constrained', sharey=True
+        1, len(graphs), figsize=(12.0, 5.4), layout='constrained', sharey=shared
     )
     for axes, graph in zip(panels, graphs, strict=True):
-        for (name, method), members in trials.items():
+        for (name, method), curve in curves.items():
             base = method.partition(', ')[0]
             everywhere = base in COLOURS and method.count(',') == 1
             if name == graph.name and (everywhere or method == ATTITUDES_NAME):
-                _band(axes, method, members, value)
+                _band(axes, method, curve)
         axes.set(xlabel='goals', yscale='log')
         axes.set_title(title_of(graph), fontsize=10)
         axes.grid(alpha=0.3)
@@ -106,28 +125,24 @@ def _draw(
     figure.legend(
         *panels[0].get_legend_handles_labels(), loc='outside lower center', ncols=4, fontsize=8
     )
-    return save(figure, stem)
+    return figure
 
 
-def _band(
-    axes: Axes, method: str, trials: Sequence[Trial], value: Callable[[Trial], float]
-) -> None:
-    """Median of the trials with a plan, and a band between their quartiles."""
-    sizes = by_size(trial for trial in trials if trial.solved)
-    spreads = [spread(value(trial) for trial in members) for members in sizes.values()]
+def _band(axes: Axes, method: str, curve: Mapping[int, Spread]) -> None:
+    """The medians, and a band between the quartiles."""
     colour = COLOURS.get(method.partition(', ')[0], 'tab:red')
     dashed = method.endswith('indexed')
     axes.plot(
-        list(sizes),
-        [each.median for each in spreads],
+        list(curve),
+        [each.median for each in curve.values()],
         '--' if dashed else '-',
         color=colour,
         label=method,
     )
     axes.fill_between(
-        list(sizes),
-        [each.lower for each in spreads],
-        [each.upper for each in spreads],
+        list(curve),
+        [each.lower for each in curve.values()],
+        [each.upper for each in curve.values()],
         color=colour,
         alpha=0.1 if dashed else 0.25,
         lw=0,

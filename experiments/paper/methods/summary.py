@@ -89,7 +89,7 @@ class Comparison:
         return sum(ratio.median > 1.0 + 1e-9 for ratio in self.length_ratios.values())
 
     def figures(self) -> dict[str, object]:
-        """For results.json."""
+        """For results.json and tables, all sizes together."""
         return {
             'graph': self.graph,
             'method': self.method,
@@ -99,10 +99,16 @@ class Comparison:
             'work_per_goal': self.work_per_goal._asdict(),
             'seconds_by_hybrid': self.slope_ratio._asdict(),
             'work_by_hybrid': self.work_ratio._asdict(),
-            'length_by_hybrid': {n: r._asdict() for n, r in self.length_ratios.items()},
             'sets_with_hybrid_shorter': self.hybrid_shorter,
             'sets_compared': self.compared,
         }
+
+    def lengths(self) -> list[dict[str, object]]:
+        """Lengths by the hybrid's for results.json and tables, size by size."""
+        return [
+            {'graph': self.graph, 'method': self.method, 'goals': goals, 'ratio': ratio._asdict()}
+            for goals, ratio in self.length_ratios.items()
+        ]
 
 
 def compare(trials: Sequence[Trial], hybrid: Sequence[Trial]) -> Comparison:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from experiments.paper.methods.graphs import Graph
 from experiments.paper.methods.summary import Comparison
-from experiments.paper.methods.trials import ATTITUDES_NAME
+from experiments.paper.methods.trials import ATTITUDES_NAME, Sizes
 from experiments.paper.part import Claim
 from experiments.paper.report import table
 
@@ -21,11 +21,10 @@ HEAD = (
 )
 
 
-def text_of(
-    graphs: Sequence[Graph], compared: Sequence[Comparison], sets: int, sizes: int, limit: float
-) -> str:
+def text_of(graphs: Sequence[Graph], compared: Sequence[Comparison], sizes: Sizes) -> str:
     """The section in Markdown."""
     dense, sparse = graphs
+    few = ', '.join(str(count) for count in sizes.few if count in sizes.goals)
     parts = [
         f"""The waypoints are the objects of the rover's world and the corners of its obstacles, grown by the rover's radius, with
 heptagons for the round ones; two waypoints that see each other have an arc in each direction, which is a fact
@@ -43,17 +42,22 @@ fourth method is **{ATTITUDES_NAME}**: the paper's photos, advice, and motions t
 
 The rule for dead ends: a waypoint passed on the way to the present goal is a fact and is not passed again; where no
 other is left, the search takes steps back. Without any such rule a blind search drives between two waypoints for ever. With it,
-a dead end may be run into again on every other way that leads there: those searches end at {limit:g} s of
+a dead end may be run into again on every other way that leads there: those searches end at {sizes.limit:g} s of
 processor time. Left to the search, which remembers what failed, no waypoint has to be noted ("circles left to the search").
 
-For each of {sizes} numbers of goals {sets} random sets. Time is processor time of the search, without reading. Its slope is that
-of a straight line through the sizes of one series of sets; the tables give the median over {sets} series, and quartiles in brackets.
-Searches without a plan are left out of slopes and lengths, in favour of the method that failed.
+For each of {len(sizes.goals)} numbers of goals {sizes.sets} random sets. Time is processor time of the search, without reading. Its slope is that
+of a straight line through the sizes of one series of sets; the tables give the median over {sizes.sets} series, and quartiles in brackets.
+Searches without a plan are left out of slopes and lengths, in favour of the method that failed. Indexed symbolic searches and the two
+variants of blind search are tried with few numbers of goals only: {few}.
 """
     ]
     for graph in graphs:
         rows = [_row(one) for one in compared if one.graph == graph.name]
         parts.append(f'{graph.name.capitalize()} reading:\n\n{table(HEAD, rows)}\n')
+    parts.append(
+        'The pictures show medians, and bands between the quartiles; the last one shows the distances '
+        "set by set over the hybrid's, which `length_ratios.csv` has in figures.\n"
+    )
     return '\n'.join(parts)
 
 

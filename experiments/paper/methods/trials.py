@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from math import nan
 
 import numpy as np
@@ -30,6 +30,21 @@ from task_planner_node.outcomes import Options, Outcome, Result
 #: [s] of wall clock, far beyond the limit of processor time.
 PATIENCE = 3600.0
 ATTITUDES_NAME = 'hybrid with attitudes'
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """How much is measured.
+
+    goals: numbers of goals; few: those with which indexed symbolic search and the variants are tried
+    sets: random sets of goals for each number
+    limit: [s] of processor time after which a search is given up
+    """
+
+    goals: tuple[int, ...]
+    few: tuple[int, ...]
+    sets: int
+    limit: float
 
 
 @dataclass(frozen=True)
@@ -89,10 +104,6 @@ class Trial:
     def solved(self) -> bool:
         """Whether there is a plan."""
         return self.outcome == Outcome.SOLVED.name
-
-    def row(self) -> list[object]:
-        """For a table of all trials."""
-        return list(asdict(self).values())
 
 
 @dataclass(frozen=True)

@@ -4,10 +4,12 @@ from math import hypot
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from motion_planner_node.robots.body import body_of
 from motion_planner_node.world import Scene
-from motion_planner_node.world.grid import TRAVEL_CELLS
+from motion_planner_node.world.grid import TRAVEL_CELLS, Grid
 from motion_planner_node.world.model import Bounds, Circle, Obstacle, Polygon, World
 
 RADIUS = 5.0
@@ -34,6 +36,37 @@ def test_a_gap_narrower_than_the_robot_is_closed(gap: float, open_: bool) -> Non
     assert west >= 0
     assert east >= 0
     assert (west == east) is open_
+
+
+shapes = st.one_of(
+    st.builds(
+        lambda x, y, r: Circle('disc', (x, y), r),
+        st.floats(-20, 820), st.floats(-20, 620), st.floats(0.5, 90),
+    ),
+    st.builds(
+        lambda x, y, w, h: Polygon('box', ((x, y), (x + w, y), (x + w, y + h), (x, y + h))),
+        st.floats(-20, 820), st.floats(-20, 620), st.floats(0.5, 300), st.floats(0.5, 300),
+    ),
+)  # fmt: skip
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(shapes, max_size=4), st.lists(shapes, min_size=1, max_size=3))
+def test_more_obstacles_close_what_they_close_in_a_world_that_has_them(
+    before: list[Obstacle], more: list[Obstacle]
+) -> None:
+    expected = scene_of(*before, *more)
+    scene = scene_of(*before)
+    untouched = scene.free_space(BODY)._grid.open.copy()
+    found = scene.with_more(more)
+    assert np.array_equal(found.free_space(BODY)._grid.open, expected.free_space(BODY)._grid.open)
+    travel = found.free_space(BODY)._travel_grid
+    grids = (Grid(expected.shapes, RADIUS, most) for most in TRAVEL_CELLS)
+    same = next(grid for grid in grids if grid.cell == travel.cell)
+    assert np.array_equal(travel.framed, same.framed)
+    points = np.random.default_rng(1).uniform([0, 0], [800, 600], (500, 2))
+    assert np.array_equal(found.clearance(points), expected.clearance(points))
+    assert np.array_equal(scene.free_space(BODY)._grid.open, untouched)
 
 
 def test_every_free_place_is_in_an_open_cell() -> None:
