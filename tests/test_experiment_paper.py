@@ -18,7 +18,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from experiments.paper.best_known import kept
-from experiments.paper.growth import cells, fitted
+from experiments.paper.growth import cells, fitted, gained
 from experiments.paper.lower_bound import lower_bound
 from experiments.paper.mission import DEFAULT_EXCESS, OPTIMISED_EXCESS
 from experiments.paper.orders import Costs, shortest_tours
@@ -87,6 +87,20 @@ def test_geometry_beforehand_takes_many_more_requests(figures: Mapping[str, Any]
         assert methods['tour']['length'] < methods['no advice']['length']
 
 
+def test_advice_is_worth_the_steps_back_that_it_leads_to(figures: Mapping[str, Any]) -> None:
+    methods = figures['messages']['missions']['samples']
+    tour, without = methods['tour'], methods['no advice']
+    assert tour['backtracks']['min'] > 0
+    assert tour['length']['max'] < without['length']['min']
+    # What the facts forbid is not tried from other attitudes.
+    assert tour['geometric_backtracks']['max'] < 0.2 * tour['backtracks']['min']
+
+
+def test_a_plan_is_shorter_by_what_was_gained_since_the_first_one() -> None:
+    assert gained({'improvements': [{'length': 9.0}, {'length': 7.5}, {'length': 7.0}]}) == 2.0
+    assert gained({'improvements': [{'length': 9.0}]}) == gained({'improvements': []}) == 0.0
+
+
 def test_requests_grow_in_proportion_to_goals(figures: Mapping[str, Any]) -> None:
     sizes = figures['growth']['sizes']
     assert [told['unsolved'] for told in sizes.values()] == [0, 0]
@@ -103,7 +117,11 @@ def rows_of(path: Path) -> list[dict[str, str]]:
 
 @pytest.mark.parametrize(
     ('table', 'words'),
-    [('mission/lengths', {'way'}), ('messages/messages', {'method'}), ('growth/growth', set())],
+    [
+        ('mission/lengths', {'way'}),
+        ('messages/messages', {'mission', 'method'}),
+        ('growth/growth', set()),
+    ],
 )
 def test_tables_for_programs_hold_numbers(run: Path, table: str, words: set[str]) -> None:
     rows = rows_of(run / f'{table}.csv')

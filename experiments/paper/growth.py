@@ -15,11 +15,18 @@ matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
 
-from experiments.paper.part import Part, flat, write_csv
+from experiments.paper.part import Claim, Part, flat, write_csv
 from experiments.paper.photos import WARM_UP, write_mission
 from experiments.paper.report import table
 from experiments.pictures.scales import plain_logarithms
-from experiments.planning import Nodes, NotSolvedError, nodes_up, spread, summary
+from experiments.planning import (
+    Nodes,
+    NotSolvedError,
+    middle_and_ends,
+    nodes_up,
+    spread,
+    summary,
+)
 from experiments.results import Target
 
 #: To reach: the first plan of so many photos in so many seconds.
@@ -86,7 +93,22 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
         text=_text(sizes, table(list(rows[0]), [list(row.values()) for row in rows]), exponents),
         figures={'sizes': figures, 'exponents': exponents},
         targets=targets,
+        claims=_claims(figures),
         pictures=[picture],
+    )
+
+
+def _claims(figures: Mapping[int, Mapping[str, Any]]) -> tuple[Claim, ...]:
+    told = [each for each in figures.values() if 'met_on_the_way' in each]
+    met = sum(each['met_on_the_way']['max'] > 0 for each in told)
+    most = max((each['shorter_m']['max'] for each in told), default=0.0)
+    return (
+        Claim(
+            'A research track is "to evaluate already generated paths in order to detect opportunities '
+            'to achieve actions earlier".',
+            f'For {met} of {len(told)} numbers of photos there are plans that take some on the way of a '
+            f'motion for another one; that makes a plan up to {most:.0f} m shorter.',
+        ),
     )
 
 
@@ -134,7 +156,20 @@ def _plans(
 
 def _figures(plans: Sequence[Mapping[str, Any]], missions: int) -> dict[str, Any]:
     told: dict[str, Any] = {'unsolved': missions - len(plans)}
-    return told | (summary(plans) if plans else {})
+    if not plans:
+        return told
+    met = middle_and_ends([plan['statistics']['opportunities'] for plan in plans])
+    shorter = middle_and_ends([gained(plan) for plan in plans])
+    return told | summary(plans) | {'met_on_the_way': met, 'shorter_m': shorter}
+
+
+def gained(plan: Mapping[str, Any]) -> float:
+    """By how much [m] a plan is shorter than the first one that was found.
+
+    Without ``--optimise`` nothing but goals that are met on the way makes it shorter.
+    """
+    lengths = [found['length'] for found in plan['improvements']]
+    return float(lengths[0] - lengths[-1]) if lengths else 0.0
 
 
 def _told(told: Mapping[str, Any], key: str, digits: int = 0) -> str:
@@ -152,6 +187,8 @@ def cells(count: int, told: Mapping[str, Any]) -> dict[str, str]:
         'requests': _told(told, 'requests'),
         'advices': _told(told, 'advices'),
         'length [m]': _told(told, 'length'),
+        'met on the way': _told(told, 'met_on_the_way'),
+        'shorter by that [m]': _told(told, 'shorter_m', 1),
         'unsolved': str(told['unsolved']),
         'memory: task planner [MB]': memory['task_planner_node'],
         'memory: motion planner [MB]': memory['motion_planner_node'],
@@ -163,7 +200,8 @@ def _text(sizes: Sizes, lines: str, exponents: Mapping[str, float]) -> str:
     return f"""
 Photos of random objectives. The world grows with them: the paper's obstacles are laid side by side once for every eight objectives, so that the density
 stays the paper's and each photo has as much room and as many obstacles around as before. {sizes.missions} random missions of each size; medians, and from least
-to greatest. Memory is the most that each node has had resident so far; the small sizes come first. Nothing of a mission's world is known to the nodes before.
+to greatest. **Met on the way** are photos that are taken on the way of a motion planned for another one, offered to the task planner as advice once
+there is a first plan. Memory is the most that each node has had resident so far; the small sizes come first. Nothing of a mission's world is known to the nodes before.
 
 {lines}
 

@@ -11,7 +11,7 @@ from experiments.paper.beforehand import plan_beforehand
 from experiments.paper.part import Claim, Part, write_csv
 from experiments.paper.photos import WARM_UP, write_mission
 from experiments.paper.report import table
-from experiments.planning import COUNTS, middle_and_ends, nodes_up
+from experiments.planning import COUNTS, Nodes, middle_and_ends, nodes_up
 
 #: Options of geohtn by the names of the methods.
 METHODS: Mapping[str, tuple[str, ...]] = {
@@ -27,20 +27,28 @@ Figures = dict[str, dict[str, dict[str, float]]]
 
 @dataclass(frozen=True)
 class Sizes:
-    """How much is measured: numbers of photos, random sets of each, destinations of each beforehand."""
+    """How much is measured.
+
+    goals: numbers of photos
+    sets: random sets of each, and seeds of each of the ``missions``
+    alternatives: destinations of each photo beforehand
+    missions: others, in which the symbols restrict the order, so that the search has to step back
+    """
 
     goals: tuple[int, ...]
     sets: int
     alternatives: int
+    missions: tuple[str, ...]
 
 
-FULL = Sizes(goals=(4, 8, 12), sets=5, alternatives=3)
-QUICK = Sizes(goals=(4,), sets=1, alternatives=2)
+FULL = Sizes(goals=(4, 8, 12), sets=5, alternatives=3, missions=('office', 'guards', 'samples'))
+QUICK = Sizes(goals=(4,), sets=1, alternatives=2, missions=('samples',))
 
 
 def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
     """Plan the same random missions in every way, and count."""
     figures: dict[int, Figures] = {}
+    others: dict[str, Figures] = {}
     with nodes_up(folder / 'plan') as nodes:
         nodes.plan(write_mission(folder / 'warm_up', WARM_UP, seed), seed)
         for count in sizes.goals:
@@ -49,38 +57,60 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
                 mission = write_mission(folder / f'{count}_{number}', count, seed + number, tiles=1)
                 # Other seeds for each method: no answer to a request is remembered.
                 for other, (name, options) in enumerate(METHODS.items(), seed):
-                    plan = nodes.plan(mission, other, *options)
-                    counted = {**plan['statistics'], 'length': plan['length']}
-                    found.setdefault(name, []).append({key: counted[key] for key in COLUMNS})
+                    found.setdefault(name, []).append(_counted(nodes, mission, other, options))
                 # The nodes still hold this mission's world.
                 found.setdefault(BEFOREHAND, []).append(
                     plan_beforehand(nodes.namespace, count, sizes.alternatives, seed + len(METHODS))
                 )
-            figures[count] = {
-                name: {key: middle_and_ends([row[key] for row in rows]) for key in COLUMNS}
-                for name, rows in found.items()
-            }
+            figures[count] = _figures(found)
             asked = [figures[count][name]['requests']['median'] for name in (BEFOREHAND, 'tour')]
             print(
                 f'  {count} photos: {asked[0]:.0f} requests beforehand, {asked[1]:.0f} when needed'
             )
+        for installed in sizes.missions:
+            others[installed] = _figures(
+                {
+                    name: [
+                        _counted(nodes, installed, seed + len(METHODS) * each + other, options)
+                        for each in range(sizes.sets)
+                    ]
+                    for other, (name, options) in enumerate(METHODS.items())
+                }
+            )
+            print(f'  {installed}: {others[installed]["tour"]["requests"]["median"]:.0f} requests')
+    named = {f'{count} photos': methods for count, methods in figures.items()} | others
     records: list[dict[str, Any]] = [
-        {'photos': count, 'method': name, **told}
-        for count, methods in figures.items()
+        {'mission': mission, 'method': name, **told}
+        for mission, methods in named.items()
         for name, told in methods.items()
     ]
     write_csv(folder / 'messages.csv', records)
     rows = [
-        (f'{told["photos"]}, {told["method"]}', *(_cell(key, told[key]) for key in COLUMNS))
+        (f'{told["mission"]}, {told["method"]}', *(_cell(key, told[key]) for key in COLUMNS))
         for told in records
     ]
-    head = ('photos, method', *(_heading(key) for key in COLUMNS))
+    head = ('mission, method', *(_heading(key) for key in COLUMNS))
     return Part(
         title='Messages, and geometry asked for beforehand',
         text=_text(sizes, table(head, rows)),
-        figures={'sizes': figures},
+        figures={'sizes': figures, 'missions': others},
         claims=_claims(figures),
     )
+
+
+def _counted(
+    nodes: Nodes, mission: Path | str, seed: int, options: tuple[str, ...]
+) -> dict[str, float]:
+    plan = nodes.plan(mission, seed, *options)
+    counted = {**plan['statistics'], 'length': plan['length']}
+    return {key: counted[key] for key in COLUMNS}
+
+
+def _figures(found: Mapping[str, list[Mapping[str, float]]]) -> Figures:
+    return {
+        name: {key: middle_and_ends([row[key] for row in rows]) for key in COLUMNS}
+        for name, rows in found.items()
+    }
 
 
 def _claims(figures: Mapping[int, Figures]) -> tuple[Claim, ...]:
@@ -116,7 +146,7 @@ def _cell(key: str, figure: Mapping[str, float]) -> str:
 
 def _text(sizes: Sizes, lines: str) -> str:
     return f"""
-Photos of random objectives in the rover's world, {sizes.sets} sets of each size; medians. Each method has a seed of its own, and the tour
+Photos of random objectives in the rover's world, {sizes.sets} sets of each size, and other missions; medians. Each method has a seed of its own, and the tour
 is planned first, when the motion planner knows nothing of the world yet.
 
 {lines}
@@ -125,5 +155,7 @@ is planned first, when the motion planner knows nothing of the world yet.
 - **All beforehand** is the preprocessing that the paper argues against, over the same motion planner: {sizes.alternatives} destinations of each photo, then a motion
   from each of them to each of the others', one request each, and after that the exact shortest tour through this graph. It sees only these
   destinations; what it finds is a shortest tour among them, not among all.
+- **office**, **guards** and **samples** are the missions of [missions.md](missions.md), with {sizes.sets} seeds. In `samples` a memory, a store and calibrations restrict the
+  order; a tour knows nothing of them, so the search steps back over what it proposes. Where only facts forbid what comes after an action, no other destination of it is asked for.
 - `answers` are as many as requests: none is lost. A request beforehand that has no answer with a motion is no arc of the graph.
 """
