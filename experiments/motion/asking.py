@@ -97,11 +97,20 @@ def _faults(checker: Checker, known: Known, answer: GeometricAnswer) -> list[str
     return list(checker.faults(known.text, known.start, answer.motion, end, told))
 
 
+def times(outcomes: Sequence[Outcome]) -> dict[str, float]:
+    """How long [ms] answers took."""
+    taken = np.array([outcome.milliseconds for outcome in outcomes])
+    return {
+        'ms_p50': float(np.median(taken)),
+        'ms_p95': float(np.percentile(taken, 95)),
+        'ms_max': float(taken.max()),
+    }
+
+
 def summary(outcomes: Sequence[Outcome]) -> dict[str, Any]:
     """Figures of one world."""
     found = [outcome for outcome in outcomes if outcome.length is not None]
     ratios = np.array([outcome.ratio for outcome in found])
-    times = np.array([outcome.milliseconds for outcome in outcomes])
     longest = sorted(found, key=lambda outcome: -outcome.ratio)[:5]
     return {
         'requests': len(outcomes),
@@ -112,9 +121,7 @@ def summary(outcomes: Sequence[Outcome]) -> dict[str, Any]:
         'ratio_p95': float(np.percentile(ratios, 95)),
         'ratio_max': float(ratios.max()),
         'shorter_than_reference': float(np.mean(ratios < 0.999)),
-        'ms_p50': float(np.median(times)),
-        'ms_p95': float(np.percentile(times, 95)),
-        'ms_max': float(times.max()),
+        **times(outcomes),
         'failed': [asdict(outcome) for outcome in outcomes if outcome.length is None],
         'faulty': [asdict(outcome) for outcome in outcomes if outcome.faults],
         'longest': [asdict(outcome) for outcome in longest],

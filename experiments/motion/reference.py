@@ -98,8 +98,10 @@ class Searcher:
             'kind': request.kind,
             'start': request.start.tolist(),
             'text': request.goal.text,
+            'length': None,
+            'states': 0,
+            'exhausted': True,
         }
-        told |= {'length': None, 'states': 0, 'exhausted': True}
         if not self._parts.are_joined(request.start, aim):
             return told
         for lattice in self._each_lattice():

@@ -10,9 +10,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
-from experiments.motion.asking import Outcome, ask
+from experiments.motion.asking import Outcome, ask, times
 from experiments.motion.grounds import lattice_of
 from experiments.motion.reference import Known, Reference
 from experiments.motion.requests import draw
@@ -39,7 +37,6 @@ def measure(place: Place, reference: Reference, count: int) -> dict[str, Any]:
 
 def summary(outcomes: Sequence[Outcome]) -> dict[str, Any]:
     """Shares of each verdict, and times [ms], in one world."""
-    times = np.array([outcome.milliseconds for outcome in outcomes])
     verdicts = [Code[outcome.code].status for outcome in outcomes]
     slowest = sorted(outcomes, key=lambda outcome: -outcome.milliseconds)[:5]
     return {
@@ -48,11 +45,11 @@ def summary(outcomes: Sequence[Outcome]) -> dict[str, Any]:
         'unknown': verdicts.count(Status.UNKNOWN) / len(outcomes),
         'found': verdicts.count(Status.FOUND) / len(outcomes),
         'refused_motions': sum(len(outcome.faults) for outcome in outcomes),
-        'ms_p50': float(np.median(times)),
-        'ms_p95': float(np.percentile(times, 95)),
-        'ms_max': float(times.max()),
+        **times(outcomes),
         'open': [
-            outcome.number for outcome in outcomes if Code[outcome.code].status is Status.UNKNOWN
+            outcome.number
+            for outcome, verdict in zip(outcomes, verdicts, strict=True)
+            if verdict is Status.UNKNOWN
         ],
         'slowest': [
             {key: getattr(outcome, key) for key in ('number', 'kind', 'code', 'milliseconds')}

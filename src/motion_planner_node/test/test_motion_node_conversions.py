@@ -230,34 +230,28 @@ def test_a_fault_inside_a_request_is_answered_and_outlived(
 
 
 def test_a_request_arrives_as_it_was_sent() -> None:
+    same: dict[str, Any] = {
+        'preconditions': '((agent r))',
+        'agent': 'r',
+        'behaviour': 'slowly',
+        'alternative': 3,
+        'world_revision': 'abc',
+        'seed': 7,
+        'time_budget': 2.0,
+        'request_id': 'id',
+        'mode': 'paper',
+        'planner': 'direct',
+    }
     sent = msg.GeometricRequest(
-        preconditions='((agent r))',
         start=[msg.AgentState(agent='r', x=1.0, y=2.0, heading=0.5)],
-        agent='r',
-        behaviour='slowly',
-        alternative=3,
-        world_revision='abc',
-        seed=7,
-        time_budget=2.0,
-        request_id='id',
-        mode='paper',
-        planner='direct',
         preferred_end=[msg.AgentState(agent='r', x=4.0, y=5.0, heading=-0.5)],
+        **same,
     )
     request = conversions.request_from_msg(sent)
     assert request == GeometricRequest(
-        preconditions='((agent r))',
         start={'r': Attitude(1.0, 2.0, 0.5)},
-        agent='r',
-        behaviour='slowly',
-        alternative=3,
-        world_revision='abc',
-        seed=7,
-        time_budget=2.0,
-        request_id='id',
-        mode='paper',
-        planner='direct',
         preferred_end={'r': Attitude(4.0, 5.0, -0.5)},
+        **same,
     )
     # Whatever is added to requests has to be sent here as well.
     empty = GeometricRequest('')
