@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from math import hypot, pi
+from math import cos, hypot, pi, sin
 
 import numpy as np
 from numpy.typing import NDArray
 
 from motion_planner_node.paths.edges import Frame, Row, Rows, frame_of
 from motion_planner_node.robots.arcs import advance, wrap_angle
+from motion_planner_node.robots.body import sufficient_clearance
 from motion_planner_node.robots.kernel import kernel
 from motion_planner_node.robots.motion import Pose
 from motion_planner_node.robots.registry import MODELS
 from motion_planner_node.robots.robot import Robot
+from motion_planner_node.world.glance import SLACK, clearance_bounds
 from motion_planner_node.world.scene import Scene
 from motion_planner_node.world.sweeps import word_is_free
 
@@ -28,8 +30,14 @@ SAME_PLACE, SAME_HEADING = 0.35, 0.3
 def _has_circle(frame: Frame, pose: Pose, circle: Rows) -> bool:
     """Whether there is room for a full circle from ``pose`` on; ``circle`` (1, 4) is overwritten."""
     circle[0, 1] = 2.0 * pi * frame.radius
+    reach = frame.radius + sufficient_clearance(frame.body) + SLACK
     for side in range(2):
-        circle[0, 0] = (1.0 - 2.0 * side) / frame.radius
+        turn = 1.0 - 2.0 * side
+        x = pose[0] - turn * frame.radius * sin(pose[2])
+        y = pose[1] + turn * frame.radius * cos(pose[2])
+        if clearance_bounds(frame.shapes, frame.shapes.middles, x, y)[0] >= reach:
+            return True
+        circle[0, 0] = turn / frame.radius
         if word_is_free(frame.shapes, frame.body, pose, circle):
             return True
     return False

@@ -23,7 +23,7 @@ from motion_planner_node.world.bodies import (
     trace_distance,
 )
 from motion_planner_node.world.clearance import clearance_within
-from motion_planner_node.world.glance import is_blocked_at_a_glance
+from motion_planner_node.world.glance import FREE, UNKNOWN, glance
 from motion_planner_node.world.index import FIRST, LAST, SKIP, bucket_at, empty_radius
 from motion_planner_node.world.shapes import Shapes
 from motion_planner_node.world.traces import (
@@ -213,8 +213,9 @@ def word_is_free(shapes: Shapes, body: Body, start: Pose, pieces: NDArray[np.flo
 
     Pieces are rows of curvature [1/m], length [m], direction [rad] and turn [rad].
     """
-    if len(pieces) > 1 and is_blocked_at_a_glance(shapes, body, start, pieces):
-        return False
+    seen = glance(shapes, body, start, pieces)
+    if seen != UNKNOWN:
+        return seen == FREE
     margin = body.margin
     return _pieces_distance(shapes, body, start, pieces, margin, margin) >= margin
 
