@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import asdict
+from itertools import chain
 from pathlib import Path
 
 from experiments.paper.methods.graphs import Graph, literal_graph, rover_world, visibility_graph
@@ -42,11 +43,11 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
     trials: Trials = defaultdict(list)
     for graph in graphs:
         bench = Bench(graph, seed, sizes.limit)
-        for trial in run_paper_methods(bench, sizes.goals, sizes.few, sizes.sets):
+        for trial in chain(
+            run_paper_methods(bench, sizes.goals, sizes.few, sizes.sets),
+            run_attitudes(bench, world, sizes.goals, sizes.sets),
+        ):
             trials[trial.graph, trial.method].append(trial)
-    bench = Bench(dense, seed, sizes.limit)
-    for trial in run_attitudes(bench, world, sizes.goals, sizes.sets):
-        trials[trial.graph, trial.method].append(trial)
     compared = comparisons(graphs, trials)
     overall = [one.figures() for one in compared]
     lengths = [row for one in compared for row in one.lengths()]

@@ -39,6 +39,7 @@ geometric precondition is a request, answered by one run of Dijkstra's algorithm
 **linear** where each literal is compared with one fact of its predicate after the other, and no further than is asked
 for, as in the paper, and **indexed** where the task planner looks facts up, as it does by default. The
 fourth method is **{ATTITUDES_NAME}**: the paper's photos, advice, and motions that the rover can drive, on the same goals.
+Of a graph it is told only where the goals are: the tables of the two readings have it with different sets of goals.
 
 The rule for dead ends: a waypoint passed on the way to the present goal is a fact and is not passed again; where no
 other is left, the search takes steps back. Without any such rule a blind search drives between two waypoints for ever. With it,
