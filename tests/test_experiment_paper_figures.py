@@ -27,7 +27,7 @@ from experiments.paper.methods.graphs import (
 )
 from experiments.paper.methods.oracles import ShortestPaths
 from experiments.paper.methods.summary import compare, slopes
-from experiments.paper.methods.trials import ATTITUDES_NAME, METHODS, Trial
+from experiments.paper.methods.trials import ATTITUDES_NAME, METHODS, Bench, Trial, run_attitudes
 from experiments.paper.part import Part
 from experiments.pictures.penalty import iterates
 from experiments.pictures.solver import EXAMPLE, RING
@@ -224,6 +224,21 @@ def test_attitudes_make_ways_shorter_than_from_waypoint_to_waypoint(
     driven, paths = trials[ATTITUDES_NAME], trials['hybrid, linear']
     assert all(trial.solved and trial.requests >= trial.goals for trial in driven)
     assert total(driven)[1] < total(paths)[1]
+
+
+def test_every_size_is_planned_without_a_limit_before_any_counts(
+    monkeypatch: pytest.MonkeyPatch, graphs: tuple[Graph, Graph]
+) -> None:
+    planned: list[tuple[float, int]] = []
+
+    def drive(bench: Bench, _planner: object, _start: object, count: int, number: int) -> Trial:
+        planned.append((bench.limit, count))
+        return trial(count, number, 0.1)
+
+    monkeypatch.setattr(Bench, 'drive', drive)
+    counted = list(run_attitudes(Bench(graphs[0], 1, 2.0), rover_world(), (1, 3), 2))
+    assert [one.goals for one in counted] == [1, 3, 1, 3]
+    assert planned == [(math.inf, 1), (math.inf, 3), *[(2.0, 1), (2.0, 3)] * 2]
 
 
 def trial(goals: int, number: int, seconds: float, outcome: str = 'SOLVED') -> Trial:
