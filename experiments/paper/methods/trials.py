@@ -36,7 +36,7 @@ ATTITUDES_NAME = 'hybrid with attitudes'
 class Sizes:
     """How much is measured.
 
-    goals: numbers of goals; few: those with which indexed symbolic search and the variants are tried
+    goals: numbers of goals; few: some with which indexed symbolic search and the variants are tried
     sets: random sets of goals for each number
     limit: [s] of processor time after which a search is given up
     """
@@ -45,6 +45,12 @@ class Sizes:
     few: tuple[int, ...]
     sets: int
     limit: float
+
+    @property
+    def few_measured(self) -> tuple[int, ...]:
+        """The few among the goals; all goals where these are not two, which a slope takes."""
+        some = tuple(count for count in self.goals if count in self.few)
+        return some if len(some) > 1 else self.goals
 
 
 @dataclass(frozen=True)
