@@ -6,7 +6,7 @@ TYPECHECKS := mypy $(foreach file,$(wildcard src/*/test/conftest.py),'mypy $(fil
 
 .DEFAULT_GOAL := help
 .PHONY: help setup mission test format lint typecheck experiments experiment-constraints \
-  experiment-motion experiment-htn experiment-paper experiment-packages fuzz clean
+  experiment-motion experiment-htn experiment-ordering experiment-paper experiment-packages fuzz clean
 
 help: ## List the targets
 	@echo 'make TARGET [PYTHON=python3.12]'
@@ -38,7 +38,7 @@ lint: setup ## Check format and lint
 typecheck: setup ## Check the types
 	@status=0; for check in $(TYPECHECKS); do $(RUN) $$check || status=1; done; exit $$status
 
-experiments: experiment-constraints experiment-motion experiment-htn experiment-paper ## Run all experiments; results in out/experiments
+experiments: experiment-constraints experiment-motion experiment-htn experiment-ordering experiment-paper ## Run all experiments; results in out/experiments
 
 experiment-constraints: experiment-packages ## Measure the solver of constraints beside scipy and CasADi
 	@$(RUN) python -m experiments.constraints.run
@@ -48,6 +48,9 @@ experiment-motion: setup ## Measure motions beside an exhaustive reference and O
 
 experiment-htn: experiment-packages ## Measure the task planner beside GTPyhop and Aries
 	@$(RUN) python -m experiments.htn.run
+
+experiment-ordering: experiment-packages ## Measure the local search of tours beside PyVRP and OR-Tools
+	@$(RUN) python -m experiments.ordering.run
 
 experiment-paper: setup ## Measure what the paper claims, part by part, and what goes beyond it
 	@$(RUN) python -m experiments.paper.run

@@ -14,9 +14,11 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
+from geohtn_msgs import msg, srv
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from experiments.paper.beforehand import Asking
 from experiments.paper.best_known import kept
 from experiments.paper.growth import cells, fitted, gained
 from experiments.paper.lower_bound import lower_bound
@@ -85,6 +87,22 @@ def test_geometry_beforehand_takes_many_more_requests(figures: Mapping[str, Any]
         assert methods['tour']['backtracks'] <= methods['no advice']['backtracks']
         assert methods['tour']['advices'] > methods['no advice']['advices'] == 0
         assert methods['tour']['length'] < methods['no advice']['length']
+
+
+def test_a_mission_has_an_answer_to_every_request(figures: Mapping[str, Any]) -> None:
+    assert figures['messages']['without_answer'] == 0
+
+
+def test_errors_are_no_answers() -> None:
+    kind = msg.GeometricAnswer
+    statuses = [kind.FOUND, kind.UNKNOWN, kind.ERROR, kind.IMPOSSIBLE]
+    replies = iter(
+        srv.SatisfyPreconditions.Response(answer=kind(status=status)) for status in statuses
+    )
+    asking = Asking(lambda _kind, _request: next(replies), seed=1)
+    found = [asking.ask('((agent rover0))', (0.0, 0.0, 0.0)) for _ in statuses]
+    assert [answer is not None for answer in found] == [True, False, False, False]
+    assert (asking.requests, asking.answers) == (4, 3)
 
 
 def test_advice_is_worth_the_steps_back_that_it_leads_to(figures: Mapping[str, Any]) -> None:

@@ -27,8 +27,9 @@ from experiments.paper.methods.graphs import (
 )
 from experiments.paper.methods.oracles import ShortestPaths
 from experiments.paper.methods.summary import compare, slopes
-from experiments.paper.methods.trials import ATTITUDES_NAME, METHODS, Trial
+from experiments.paper.methods.trials import ATTITUDES_NAME, METHODS, Bench, Trial, run_attitudes
 from experiments.paper.part import Part
+from experiments.paper.run import main
 from experiments.pictures.penalty import iterates
 from experiments.pictures.solver import EXAMPLE, RING
 from motion_planner_node.world.model import Polygon
@@ -218,12 +219,57 @@ def test_tables_for_programs_hold_every_method_and_size(
                 assert ratio == pytest.approx(trial.length / twin.length)
 
 
-def test_attitudes_make_ways_shorter_than_from_waypoint_to_waypoint(all_trials: Trials) -> None:
-    driven = all_trials['swapped', ATTITUDES_NAME]
-    paths = all_trials['swapped', 'hybrid, linear']
-    assert ('literal', ATTITUDES_NAME) not in all_trials
+def test_attitudes_make_ways_shorter_than_from_waypoint_to_waypoint(
+    trials: dict[str, list[Trial]],
+) -> None:
+    driven, paths = trials[ATTITUDES_NAME], trials['hybrid, linear']
     assert all(trial.solved and trial.requests >= trial.goals for trial in driven)
     assert total(driven)[1] < total(paths)[1]
+
+
+def test_every_size_is_planned_without_a_limit_before_any_counts(
+    monkeypatch: pytest.MonkeyPatch, graphs: tuple[Graph, Graph]
+) -> None:
+    planned: list[tuple[float, int]] = []
+
+    def drive(bench: Bench, _planner: object, _start: object, count: int, number: int) -> Trial:
+        planned.append((bench.limit, count))
+        return trial(count, number, 0.1)
+
+    monkeypatch.setattr(Bench, 'drive', drive)
+    counted = list(run_attitudes(Bench(graphs[0], 1, 2.0), rover_world(), (1, 3), 2))
+    assert [one.goals for one in counted] == [1, 3, 1, 3]
+    assert planned == [(math.inf, 1), (math.inf, 3), *[(2.0, 1), (2.0, 3)] * 2]
+
+
+def test_one_number_of_goals_is_measured_by_all_methods_but_has_no_slope(tmp_path: Path) -> None:
+    page = tmp_path / 'page.md'
+    main(
+        [
+            *('--only', 'methods', '--quick', '--goals', '2'),
+            *('--output', f'{tmp_path}', '--page', f'{page}'),
+        ]
+    )
+    with (tmp_path / 'methods' / 'trials.csv').open(encoding='utf-8') as file:
+        rows = [(row['graph'], row['method'], row['goals']) for row in csv.DictReader(file)]
+    assert len(set(rows)) == len(rows) == 2 * (len(METHODS) + 1)
+    assert {goals for _, _, goals in rows} == {'2'}
+    text = page.read_text(encoding='utf-8')
+    assert 'times the hybrid' in text
+    assert 'nan' not in text
+    assert 'added goal by' not in text
+
+
+@pytest.mark.parametrize('goals', ['0', '-3', 'few', '1.5'])
+def test_a_wrong_number_of_goals_is_refused(goals: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(['--only', 'methods', f'--goals={goals}'])
+    assert 'at least 1' in capsys.readouterr().err
+
+
+def test_more_goals_than_there_are_waypoints_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(SystemExit, match='no more than 29 goals'):
+        main(['--only', 'methods', '--goals', '30', '--output', f'{tmp_path}'])
 
 
 def trial(goals: int, number: int, seconds: float, outcome: str = 'SOLVED') -> Trial:
@@ -250,7 +296,7 @@ def test_the_part_tells_what_was_measured(measured: tuple[Part, Path], all_trial
     assert all(t.met for t in lengths if 'swapped' in t.name)
     assert len(part.claims) == 3
     assert all(method in part.text for _, method in all_trials)
-    assert len(all_trials) == 2 * len(METHODS) + 1
+    assert len(all_trials) == 2 * (len(METHODS) + 1)
     assert all(len(members) == 2 for members in all_trials.values())
     for name in ('graphs', 'figure_6', 'figure_7', 'length_ratios'):
         assert (folder / f'{name}.svg').stat().st_size > 0

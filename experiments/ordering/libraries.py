@@ -1,17 +1,13 @@
-"""Tours of PyVRP and OR-Tools through the matrices of `experiments.ordering.matrices`.
+"""Tours of PyVRP and OR-Tools through matrices of costs.
 
 Both choose one attitude of each group by themselves: PyVRP in groups of clients that exclude each other,
 OR-Tools in disjunctions.  The way is open: back to the start costs nothing.
-
-Needs numpy, pyvrp and ortools, but nothing of the project, so any environment will do:
-``python experiments/ordering/libraries.py FOLDER``.
 """
 
 from __future__ import annotations
 
-import argparse
-import time
-from pathlib import Path
+from collections.abc import Callable
+from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 import numpy as np
@@ -80,7 +76,21 @@ def by_ortools(matrix: Matrix, owner: NDArray[np.int64], seconds: float, _seed: 
     return tour
 
 
-LIBRARIES = {'PyVRP': by_pyvrp, 'OR-Tools': by_ortools}
+#: Attitudes in their order for a matrix, the group of each attitude, seconds and a seed.
+Library = Callable[[Matrix, NDArray[np.int64], float, int], list[int]]
+LIBRARIES: dict[str, Library] = {'PyVRP': by_pyvrp, 'OR-Tools': by_ortools}
+PACKAGES = {'PyVRP': 'pyvrp', 'OR-Tools': 'ortools'}
+
+
+def installed() -> dict[str, str]:
+    """The versions of the libraries that are there, by their names."""
+    found = {}
+    for name, package in PACKAGES.items():
+        try:
+            found[name] = version(package)
+        except PackageNotFoundError:
+            continue
+    return found
 
 
 def length_of(costs: NDArray[np.float32], owner: NDArray[np.int64], tour: list[int]) -> float:
@@ -88,36 +98,3 @@ def length_of(costs: NDArray[np.float32], owner: NDArray[np.int64], tour: list[i
     if sorted(owner[tour]) != list(range(1, int(owner.max()) + 1)):
         return float('inf')
     return float(costs[[0, *tour[:-1]], tour].astype(np.float64).sum())
-
-
-def main() -> None:
-    """Print lengths and times of the libraries beside those that the file has of the local search."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument('folder', type=Path, help='with the files that matrices.py wrote')
-    parser.add_argument('--seconds', type=float, action='append', help='to search for (1 and 10)')
-    parser.add_argument('--goals', type=int, action='append', help='only these numbers of photos')
-    parser.add_argument('--library', choices=LIBRARIES, action='append', help='only this one')
-    wanted = parser.parse_args()
-    files = sorted(wanted.folder.glob('*.npz'), key=lambda path: int(path.stem))
-    for path in files:
-        if wanted.goals and int(path.stem) not in wanted.goals:
-            continue
-        told = np.load(path)
-        costs, owner = told['costs'], told['owner'].astype(np.int64)
-        for length, spent in told['found']:
-            print(f'{path.stem} photos, local search: {length:.0f} m, {spent:.2f} s', flush=True)
-        for name in wanted.library or LIBRARIES:
-            for seconds in wanted.seconds or (1.0, 10.0):
-                began = time.perf_counter()
-                tour = LIBRARIES[name](whole(costs), owner, seconds, 1)
-                spent = time.perf_counter() - began
-                length = length_of(costs, owner, tour)
-                print(
-                    f'{path.stem} photos, {name}, {seconds:g} s of search: '
-                    f'{length:.0f} m, {spent:.2f} s in all',
-                    flush=True,
-                )
-
-
-if __name__ == '__main__':
-    main()

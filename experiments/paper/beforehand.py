@@ -26,12 +26,12 @@ START = (20.0, 20.0, 0.0)
 Pose = tuple[float, float, float]
 
 
-class _Asking:
-    """Asks for motions of the rover, and counts."""
+class Asking:
+    """Asks for motions of the rover, and counts; what is no answer but an error counts as a request alone."""
 
     def __init__(self, exchange: Exchange, seed: int) -> None:
         self._exchange, self._seed = exchange, seed
-        self.requests = 0
+        self.requests = self.answers = 0
 
     def ask(self, preconditions: str, start: Pose, alternative: int = 0) -> Any:
         """The answer, nothing when no motion was found."""
@@ -45,6 +45,7 @@ class _Asking:
         )
         sent = srv.SatisfyPreconditions.Request(request=request)
         answer = self._exchange(srv.SatisfyPreconditions, sent).answer
+        self.answers += answer.status != msg.GeometricAnswer.ERROR
         return answer if answer.status == msg.GeometricAnswer.FOUND else None
 
 
@@ -53,7 +54,7 @@ def plan_beforehand(namespace: str, goals: int, alternatives: int, seed: int) ->
     began = time.perf_counter()
     with client(namespace, {srv.SatisfyPreconditions: 'satisfy_preconditions'}) as exchange:
         connected = time.perf_counter()
-        asking = _Asking(exchange, seed)
+        asking = Asking(exchange, seed)
         ends, first = [], []
         for k in range(1, goals + 1):
             answers = [
@@ -71,7 +72,7 @@ def plan_beforehand(namespace: str, goals: int, alternatives: int, seed: int) ->
     tour = next(shortest_tours(Costs(first, between)))
     return {
         'requests': asking.requests,
-        'answers': asking.requests,
+        'answers': asking.answers,
         'advices': 0,
         'backtracks': 0,
         'geometric_backtracks': 0,
@@ -81,7 +82,7 @@ def plan_beforehand(namespace: str, goals: int, alternatives: int, seed: int) ->
     }
 
 
-def _motions(asking: _Asking, origins: list[Pose], ends: list[Pose]) -> Array:
+def _motions(asking: Asking, origins: list[Pose], ends: list[Pose]) -> Array:
     """Lengths (n, m) [m] of motions, infinite where none was found."""
     lengths = np.full((len(origins), len(ends)), np.inf)
     for i, origin in enumerate(origins):

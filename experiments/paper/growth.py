@@ -204,7 +204,11 @@ to greatest. **Met on the way** are photos that are taken on the way of a motion
 there is a first plan. Memory is the most that each node has had resident so far; the small sizes come first. Nothing of a mission's world is known to the nodes before.
 
 {lines}
+{_growth(exponents) if len(sizes.goals) > 1 else ''}"""
 
+
+def _growth(exponents: Mapping[str, float]) -> str:
+    return f"""
 The planning time grows as the number of photos to the {exponents['planning_time_median']:.2f}, what is spent in the motion planner as its power
 {exponents['request_time_median']:.2f}, and in the task planner as its power {exponents['search_time_median']:.2f} (least squares over the medians, in logarithms). The length
 grows as its power {exponents['length_median']:.2f}, the requests as its power {exponents['requests_median']:.2f}. The memory, with what a node holds before any mission, grows as the power

@@ -21,6 +21,8 @@ METHODS: Mapping[str, tuple[str, ...]] = {
 }
 BEFOREHAND = 'all beforehand'
 COLUMNS = (*COUNTS, 'planning_time', 'length')
+#: What was counted in each plan, by the names of the methods.
+Counted = dict[str, list[Mapping[str, float]]]
 #: Median, least and greatest of each column, by the names of the methods.
 Figures = dict[str, dict[str, dict[str, float]]]
 
@@ -49,10 +51,11 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
     """Plan the same random missions in every way, and count."""
     figures: dict[int, Figures] = {}
     others: dict[str, Figures] = {}
+    without_answer = 0.0
     with nodes_up(folder / 'plan') as nodes:
         nodes.plan(write_mission(folder / 'warm_up', WARM_UP, seed), seed)
         for count in sizes.goals:
-            found: dict[str, list[Mapping[str, float]]] = {}
+            found: Counted = {}
             for number in range(sizes.sets):
                 mission = write_mission(folder / f'{count}_{number}', count, seed + number, tiles=1)
                 # Other seeds for each method: no answer to a request is remembered.
@@ -63,20 +66,21 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
                     plan_beforehand(nodes.namespace, count, sizes.alternatives, seed + len(METHODS))
                 )
             figures[count] = _figures(found)
+            without_answer += _without_answer(found)
             asked = [figures[count][name]['requests']['median'] for name in (BEFOREHAND, 'tour')]
             print(
                 f'  {count} photos: {asked[0]:.0f} requests beforehand, {asked[1]:.0f} when needed'
             )
         for installed in sizes.missions:
-            others[installed] = _figures(
-                {
-                    name: [
-                        _counted(nodes, installed, seed + len(METHODS) * each + other, options)
-                        for each in range(sizes.sets)
-                    ]
-                    for other, (name, options) in enumerate(METHODS.items())
-                }
-            )
+            found = {
+                name: [
+                    _counted(nodes, installed, seed + len(METHODS) * each + other, options)
+                    for each in range(sizes.sets)
+                ]
+                for other, (name, options) in enumerate(METHODS.items())
+            }
+            others[installed] = _figures(found)
+            without_answer += _without_answer(found)
             print(f'  {installed}: {others[installed]["tour"]["requests"]["median"]:.0f} requests')
     named = {f'{count} photos': methods for count, methods in figures.items()} | others
     records: list[dict[str, Any]] = [
@@ -92,8 +96,8 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
     head = ('mission, method', *(_heading(key) for key in COLUMNS))
     return Part(
         title='Messages, and geometry asked for beforehand',
-        text=_text(sizes, table(head, rows)),
-        figures={'sizes': figures, 'missions': others},
+        text=_text(sizes, table(head, rows), without_answer),
+        figures={'sizes': figures, 'missions': others, 'without_answer': without_answer},
         claims=_claims(figures),
     )
 
@@ -106,11 +110,15 @@ def _counted(
     return {key: counted[key] for key in COLUMNS}
 
 
-def _figures(found: Mapping[str, list[Mapping[str, float]]]) -> Figures:
+def _figures(found: Counted) -> Figures:
     return {
         name: {key: middle_and_ends([row[key] for row in rows]) for key in COLUMNS}
         for name, rows in found.items()
     }
+
+
+def _without_answer(found: Counted) -> float:
+    return sum(row['requests'] - row['answers'] for rows in found.values() for row in rows)
 
 
 def _claims(figures: Mapping[int, Figures]) -> tuple[Claim, ...]:
@@ -144,7 +152,12 @@ def _cell(key: str, figure: Mapping[str, float]) -> str:
     return f'{figure["median"]:.{2 if key == "planning_time" else 0}f}'
 
 
-def _text(sizes: Sizes, lines: str) -> str:
+def _text(sizes: Sizes, lines: str, without_answer: float) -> str:
+    lost = (
+        f'{without_answer:.0f} requests have none'
+        if without_answer
+        else 'no request is without one'
+    )
     return f"""
 Photos of random objectives in the rover's world, {sizes.sets} sets of each size, and other missions; medians. Each method has a seed of its own, and the tour
 is planned first, when the motion planner knows nothing of the world yet.
@@ -155,7 +168,7 @@ is planned first, when the motion planner knows nothing of the world yet.
 - **All beforehand** is the preprocessing that the paper argues against, over the same motion planner: {sizes.alternatives} destinations of each photo, then a motion
   from each of them to each of the others', one request each, and after that the exact shortest tour through this graph. It sees only these
   destinations; what it finds is a shortest tour among them, not among all.
-- **office**, **guards** and **samples** are the missions of [missions.md](missions.md), with {sizes.sets} seeds. In `samples` a memory, a store and calibrations restrict the
+- **{'**, **'.join(sizes.missions)}**: missions of [missions.md](missions.md), with {sizes.sets} seeds each. In `samples` a memory, a store and calibrations restrict the
   order; a tour knows nothing of them, so the search steps back over what it proposes. Where only facts forbid what comes after an action, no other destination of it is asked for.
-- `answers` are as many as requests: none is lost. A request beforehand that has no answer with a motion is no arc of the graph.
+- `answers` are counted where they arrive, errors left out: {lost}. A request beforehand that has no answer with a motion is no arc of the graph.
 """

@@ -226,8 +226,7 @@ checker of the tests (`tests/support/checker.py`), which shares no code with the
   the order {order}. `ros2_ws/run {known['made_by']}` makes it again, and it is kept as a plan in
   `experiments/paper/best_known/rover.json`, which the tests have judged by the checker.
 - **Lower bound**: who photographs an objective crosses the circle of 100 m round it. The exact shortest way from the start that touches a point of each
-  circle, round the obstacles, headings and turning radius set aside; `experiments/paper/lower_bound.py` has the argument. What is between bound and
-  best known is mostly what it costs to pass each objective sideways.
+  circle, round the obstacles, headings and turning radius set aside; `experiments/paper/lower_bound.py` has the argument.
 
 The plan of the default, as the paper prints it, and its picture; below it the optimised one:
 

@@ -11,6 +11,8 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
+import yaml
+
 from experiments.paper.part import Claim, Part, write_csv
 from experiments.planning import Nodes, middle_and_ends, nodes_up, spread
 from experiments.results import Target
@@ -111,11 +113,15 @@ def _targets(plans: Sequence[Planned]) -> list[Target]:
 
 
 def _claim(plans: Sequence[Planned]) -> Claim:
+    worlds = [
+        yaml.safe_load((FOLDER / name / 'world.yaml').read_text('utf-8')) for name in MISSIONS
+    ]
+    models = [robot['model'] for world in worlds for robot in world['robots'].values()]
     solved = sum(plan.outcome == 'SOLVED' for plan in plans)
     return Claim(
         'The language of operators with geometric preconditions is general; the paper shows it with '
         'one mission of one rover.',
-        f'{len(MISSIONS)} further missions with {len(MISSIONS) + 1} robots of four models: {solved} of '
+        f'{len(MISSIONS)} further missions with {len(models)} robots of {len(set(models))} models: {solved} of '
         f'{len(plans)} plans found, {sum(len(plan.faults) for plan in plans)} faults in them.',
     )
 

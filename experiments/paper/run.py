@@ -45,10 +45,16 @@ def measure(
         own.mkdir(parents=True, exist_ok=True)
         sizes = module.QUICK if quick else module.FULL
         if goals and hasattr(sizes, 'goals'):
-            sizes = replace(sizes, goals=tuple(goals))
+            sizes = replace(sizes, goals=tuple(sorted(set(goals))))
         parts[name] = module.measure(sizes, seed, own)
         print(f'{name}: done after {time.perf_counter() - began:.0f} s', flush=True)
     return parts
+
+
+def _photos(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f'a number of photos is at least 1, not {text!r}')
+    return int(text)
 
 
 def main(arguments: Iterable[str] | None = None) -> None:
@@ -60,7 +66,7 @@ def main(arguments: Iterable[str] | None = None) -> None:
     parser.add_argument('--quick', action='store_true', help='small sizes, to try it')
     parser.add_argument(
         '--goals',
-        type=int,
+        type=_photos,
         action='append',
         metavar='N',
         help='of parts of several sizes only this number of photos; may be repeated',

@@ -16,6 +16,8 @@ import itertools
 import json
 import math
 import time
+from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -26,12 +28,16 @@ from experiments.motion.grounds import lattice_of
 from experiments.motion.lattice import Lattice
 from experiments.motion.worlds import ROOT, Place, rover
 from experiments.paper.best_known import kept
+from experiments.paper.best_known.effort import FULL, QUICK, Effort
 from experiments.paper.best_known.polishing import polished
-from experiments.paper.best_known.roadmap import corner_attitudes, make, photo_attitudes
+from experiments.paper.best_known.roadmap import (
+    Roadmap,
+    corner_attitudes,
+    make,
+    photo_attitudes,
+)
 from experiments.paper.orders import shortest_tours
 
-#: Orders that are made shorter in each round.
-ORDERS = 24
 #: Figure 3: the distances [m] of a photo, and the heading less the bearing of the objective [rad].
 LOW, HIGH, ANGLE = 50.0, 100.0, 0.5 * math.pi
 START = 'location0'
@@ -57,53 +63,62 @@ def corners_of(place: Place) -> Array:
     return np.array(corners, float)
 
 
+def roadmap_of(
+    place: Place, lattice: Lattice, random: np.random.Generator, effort: Effort
+) -> Roadmap:
+    """Attitudes of all photos and between them, joined."""
+    at = place.objects[START]
+    return make(
+        np.array([at['x'], at['y'], 0.0]),
+        [photo_attitudes(goal, lattice, random, effort) for goal in goals_of(place).values()],
+        corner_attitudes(corners_of(place), lattice, random, effort),
+        lattice.ground,
+    )
+
+
 def round_of(
-    place: Place, lattice: Lattice, random: np.random.Generator, orders: int
+    place: Place, lattice: Lattice, random: np.random.Generator, effort: Effort
 ) -> tuple[list[Array], list[str], float]:
     """The legs of the shortest tour of one round, the labels that they lead to, and the length [m]."""
     goals = goals_of(place)
-    at = place.objects[START]
-    roadmap = make(
-        np.array([at['x'], at['y'], 0.0]),
-        [photo_attitudes(goal, lattice, random) for goal in goals.values()],
-        corner_attitudes(corners_of(place), lattice, random),
-        lattice.ground,
-    )
+    roadmap = roadmap_of(place, lattice, random, effort)
     labels, best = list(goals), (list[Array](), list[str](), math.inf)
-    for tour in itertools.islice(shortest_tours(roadmap.costs), orders):
-        stops = [(-1, 0), *zip(tour.order, tour.places, strict=True)]
-        legs = [roadmap.leg(*a, *b) for a, b in itertools.pairwise(stops)]
-        rings = np.array([(*_ring(goals[labels[i]]), ANGLE) for i in tour.order])
-        legs, length = polished(lattice.ground, legs, rings, random)
+    for tour in itertools.islice(shortest_tours(roadmap.costs), effort.orders):
+        rings = rings_of(goals[labels[i]] for i in tour.order)
+        legs, length = polished(lattice.ground, roadmap.legs(tour), rings, random, effort.moves)
         if length < best[2]:
             best = (legs, [labels[i] for i in tour.order], length)
     return best
 
 
-def _ring(goal: Goal) -> tuple[float, float, float, float]:
-    ring = goal.rings[0]
-    return ring.x, ring.y, ring.low, ring.high
+def rings_of(goals: Iterable[Goal]) -> Array:
+    """Where photos are possible, (k, 5) as `polishing.moved` wants it."""
+    rings = [goal.rings[0] for goal in goals]
+    return np.array([(ring.x, ring.y, ring.low, ring.high, ANGLE) for ring in rings])
 
 
-def main() -> None:
+def main(arguments: Iterable[str] | None = None) -> None:
     """Search, and keep what is better than what is kept."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument('--seed', type=int, default=1, help='of the first round (default: 1)')
     parser.add_argument('--rounds', type=int, default=8, help='each with a seed of its own')
-    parser.add_argument('--orders', type=int, default=ORDERS, help='made shorter in a round')
+    parser.add_argument('--orders', type=int, help=f'made shorter in a round ({FULL.orders})')
+    parser.add_argument('--quick', action='store_true', help='few attitudes and moves, to try it')
     parser.add_argument('--file', type=Path, default=kept.FILE, help='where the best is kept')
-    wanted = parser.parse_args()
+    wanted = parser.parse_args(None if arguments is None else list(arguments))
+    effort = QUICK if wanted.quick else FULL
+    effort = replace(effort, orders=wanted.orders or effort.orders)
     place = rover(ROOT / 'out' / 'experiments' / 'motion')
     lattice = lattice_of(place)
     for seed in range(wanted.seed, wanted.seed + wanted.rounds):
         began = time.perf_counter()
-        legs, labels, length = round_of(place, lattice, np.random.default_rng(seed), wanted.orders)
+        legs, labels, length = round_of(place, lattice, np.random.default_rng(seed), effort)
         known = kept.read(wanted.file)['length'] if wanted.file.exists() else math.inf
         print(f'seed {seed}: {length:.3f} m, {time.perf_counter() - began:.0f} s', flush=True)
         if length < known:
             document = {
                 'made_by': 'python -m experiments.paper.best_known'
-                f' --seed {seed} --rounds 1 --orders {wanted.orders}',
+                f' --seed {seed} --rounds 1 --orders {effort.orders}{" --quick" * wanted.quick}',
                 **kept.plan_of(lattice.ground, legs, labels, place.document['robots'][AGENT]),
             }
             wanted.file.write_text(json.dumps(document, indent=1) + '\n', encoding='utf-8')

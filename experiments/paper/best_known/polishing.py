@@ -20,8 +20,8 @@ from experiments.motion.polishing import (
 
 #: Rounds without a gain of this share after which it ends.
 PATIENCE, GAIN = 4, 1e-4
-#: Attitudes laid along a leg, those that a word may pass over, and moves in a round.
-POINTS, PASSED, MOVES = 48, 24, 12_000
+#: Attitudes laid along a leg, and those that a word may pass over.
+POINTS, PASSED = 48, 24
 
 
 @compiled
@@ -51,11 +51,12 @@ def moved(
 
 
 def polished(
-    ground: Ground, legs: Sequence[Array], rings: Array, random: np.random.Generator
+    ground: Ground, legs: Sequence[Array], rings: Array, random: np.random.Generator, moves: int
 ) -> tuple[list[Array], float]:
     """Legs (n, 3) that are together not longer than ``legs``, and their length [m].
 
-    Leg i leads to ring i of ``rings``, as `moved` wants them.
+    Leg i leads to ring i of ``rings``, as `moved` wants them; ``moves`` are tried before the attitudes
+    along the legs are laid anew.
     """
     best = list(legs)
     length = sum(float(way_length(ground, leg)) for leg in best)
@@ -66,7 +67,7 @@ def polished(
         lasts = np.cumsum([len(leg) - 1 for leg in laid])
         ring_of = np.full(len(way), -1)
         ring_of[lasts] = np.arange(len(laid))
-        draws = random.uniform(-1.0, 1.0, (MOVES, 4))
+        draws = random.uniform(-1.0, 1.0, (moves, 4))
         draws[:, 3] = np.abs(draws[:, 3])
         moved(ground, way, ring_of, rings, draws, 2.0 * ground.radius)
         shorter = float(way_length(ground, way))

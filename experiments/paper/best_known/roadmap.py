@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import hypot, inf, pi
@@ -13,12 +14,9 @@ from numpy.typing import NDArray
 from experiments.motion.geometry import Array, Ground, compiled, free_word
 from experiments.motion.goals import Goal
 from experiments.motion.lattice import Lattice
-from experiments.paper.orders import Costs
+from experiments.paper.best_known.effort import Effort
+from experiments.paper.orders import Costs, Tour
 
-#: Bearings and distances from an objective at which attitudes are laid.
-BEARINGS, DISTANCES = 72, 5
-#: Bearings from a corner, or from the middle of a disc, at which attitudes are laid round it.
-ROUND = 16
 #: Legs longer than this many times the straight way, and more turns beside, are of no use.
 DETOUR, TURNS = 1.6, 8.0
 
@@ -55,28 +53,39 @@ class Roadmap:
             nodes.append(int(self.hops[nodes[-1], b]))
         return np.vstack([first, self.between[nodes], last])
 
+    def legs(self, tour: Tour) -> list[Array]:
+        """The attitudes (n, 3) of the ways that a tour takes from place to place."""
+        stops = [(-1, 0), *zip(tour.order, tour.places, strict=True)]
+        return [self.leg(*a, *b) for a, b in itertools.pairwise(stops)]
 
-def photo_attitudes(goal: Goal, lattice: Lattice, random: np.random.Generator) -> Array:
+
+def photo_attitudes(
+    goal: Goal, lattice: Lattice, random: np.random.Generator, effort: Effort
+) -> Array:
     """Free attitudes (m, 3) of a goal on rings round its object, turned at random."""
     ring = goal.rings[0]
-    bearings = np.linspace(-pi, pi, BEARINGS, endpoint=False) + random.uniform(0.0, 2.0 * pi)
+    bearings = np.linspace(-pi, pi, effort.bearings, endpoint=False) + random.uniform(0.0, 2.0 * pi)
     rows = [
         (
             ring.x + away * np.cos(bearing),
             ring.y + away * np.sin(bearing),
             bearing + pi + goal.angle,
         )
-        for away in np.linspace(ring.low, ring.high, DISTANCES)
+        for away in np.linspace(ring.low, ring.high, effort.distances)
         for bearing in bearings
     ]
     attitudes = np.array(rows)
     return attitudes[_inside(attitudes, lattice)]
 
 
-def corner_attitudes(corners: Array, lattice: Lattice, random: np.random.Generator) -> Array:
+def corner_attitudes(
+    corners: Array, lattice: Lattice, random: np.random.Generator, effort: Effort
+) -> Array:
     """Free attitudes (w, 3) that pass each of ``corners`` (c, 3) x, y, radius closely, either way."""
     margin = lattice.ground.margin
-    bearings = np.linspace(0.0, 2.0 * pi, ROUND, endpoint=False) + random.uniform(0.0, 2.0 * pi)
+    bearings = np.linspace(0.0, 2.0 * pi, effort.around, endpoint=False) + random.uniform(
+        0.0, 2.0 * pi
+    )
     rows = [
         (
             x + (radius + margin + 0.05) * np.cos(bearing),

@@ -22,7 +22,9 @@ class Spread(NamedTuple):
     greatest: float
 
     def shown(self, digits: int, factor: float = 1.0) -> str:
-        """Median, and the quartiles in brackets."""
+        """Median, and the quartiles in brackets; empty without figures."""
+        if np.isnan(self.median):
+            return ''
         lower, median, upper = (
             f'{factor * value:.{digits}f}' for value in (self.lower, self.median, self.upper)
         )

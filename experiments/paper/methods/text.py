@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from experiments.paper.methods.graphs import Graph
-from experiments.paper.methods.summary import Comparison
+from experiments.paper.methods.summary import Comparison, spread
 from experiments.paper.methods.trials import ATTITUDES_NAME, Sizes
 from experiments.paper.part import Claim
 from experiments.paper.report import table
@@ -24,7 +24,11 @@ HEAD = (
 def text_of(graphs: Sequence[Graph], compared: Sequence[Comparison], sizes: Sizes) -> str:
     """The section in Markdown."""
     dense, sparse = graphs
-    few = ', '.join(str(count) for count in sizes.few if count in sizes.goals)
+    few = ', '.join(map(str, sizes.few_measured))
+    only = (
+        'Indexed symbolic searches and the two variants of blind search are tried with few numbers of goals '
+        f'only: {few}.'
+    )
     parts = [
         f"""The waypoints are the objects of the rover's world and the corners of its obstacles, grown by the rover's radius, with
 heptagons for the round ones; two waypoints that see each other have an arc in each direction, which is a fact
@@ -39,6 +43,7 @@ geometric precondition is a request, answered by one run of Dijkstra's algorithm
 **linear** where each literal is compared with one fact of its predicate after the other, and no further than is asked
 for, as in the paper, and **indexed** where the task planner looks facts up, as it does by default. The
 fourth method is **{ATTITUDES_NAME}**: the paper's photos, advice, and motions that the rover can drive, on the same goals.
+Of a graph it is told only where the goals are: the tables of the two readings have it with different sets of goals.
 
 The rule for dead ends: a waypoint passed on the way to the present goal is a fact and is not passed again; where no
 other is left, the search takes steps back. Without any such rule a blind search drives between two waypoints for ever. With it,
@@ -47,8 +52,8 @@ processor time. Left to the search, which remembers what failed, no waypoint has
 
 For each of {len(sizes.goals)} numbers of goals {sizes.sets} random sets. Time is processor time of the search, without reading. Its slope is that
 of a straight line through the sizes of one series of sets; the tables give the median over {sizes.sets} series, and quartiles in brackets.
-Searches without a plan are left out of slopes and lengths, in favour of the method that failed. Indexed symbolic searches and the two
-variants of blind search are tried with few numbers of goals only: {few}.
+Searches without a plan are left out of slopes and lengths, in favour of the method that failed.
+{only if sizes.few_measured != sizes.goals else ''}
 """
     ]
     for graph in graphs:
@@ -62,15 +67,14 @@ variants of blind search are tried with few numbers of goals only: {few}.
 
 
 def _row(one: Comparison) -> list[object]:
-    least = min(ratio.median for ratio in one.length_ratios.values())
-    greatest = max(ratio.median for ratio in one.length_ratios.values())
+    medians = spread(ratio.median for ratio in one.length_ratios.values())
     itself = one.method.startswith('hybrid,')
     return [
         one.method,
         one.slope.shown(2, 1e3),
         '' if itself else one.slope_ratio.shown(1),
         one.work_per_goal.shown(0),
-        '' if itself else f'{least:.2f} to {greatest:.2f}',
+        '' if itself else f'{medians.least:.2f} to {medians.greatest:.2f}',
         '' if itself else f'{one.hybrid_shorter} of {one.compared}',
         f'{one.unsolved} of {one.trials}',
     ]
@@ -82,7 +86,9 @@ def claims_of(compared: Sequence[Comparison], sizes: int) -> list[Claim]:
     blind, nearest = at['swapped', 'blind, linear'], at['swapped', 'nearest first, linear']
     fast = at['swapped', 'blind, indexed'], at['swapped', 'nearest first, indexed']
     sparse = at['literal', 'blind, linear'], at['literal', 'nearest first, linear']
-    return [
+    # One number of goals tells nothing of what an added one takes.
+    several = sizes > 1
+    added = [
         Claim(
             'An added goal costs 50 s with a symbolic search against 4 s with the hybrid (Figure 6).',
             f'{blind.slope_ratio.median:.0f} (blind) and {nearest.slope_ratio.median:.0f} (nearest first) '
@@ -91,6 +97,14 @@ def claims_of(compared: Sequence[Comparison], sizes: int) -> list[Claim]:
             f'{fast[0].slope_ratio.median:.1f} and {fast[1].slope_ratio.median:.1f} times with indexed '
             'matching on the large graph.',
         ),
+    ]
+    seconds = (
+        ' In seconds the small graph shows less of it: here a comparison takes '
+        f'{1e9 * nearest.slope.median / nearest.work_per_goal.median:.0f} ns, and a request has a price of its '
+        f'own, {1e3 * at["swapped", "hybrid, indexed"].slope.median:.2f} ms.'
+    )
+    return [
+        *(added if several else []),
         Claim(
             'The cause is the search for a predicate to unify with; nearest-first costs more, as it looks for all of them.',
             f'For each goal the blind search tries and compares {blind.work_per_goal.median:.0f} times '
@@ -98,9 +112,7 @@ def claims_of(compared: Sequence[Comparison], sizes: int) -> list[Claim]:
             f'{nearest.work_per_goal.median:.0f} times ({nearest.work_ratio.median:.0f}), on the small graph '
             f'{sparse[0].work_ratio.median:.0f} and {sparse[1].work_ratio.median:.0f} times as often as the hybrid. '
             f'With an index it is {fast[0].work_per_goal.median:.0f} and {fast[1].work_per_goal.median:.0f} times a '
-            'goal on the large graph, for the same plans. In seconds the small graph shows less of it: here a comparison '
-            f'takes {1e9 * nearest.slope.median / nearest.work_per_goal.median:.0f} ns, and a request has a price of its '
-            f'own, {1e3 * at["swapped", "hybrid, indexed"].slope.median:.2f} ms.',
+            'goal on the large graph, for the same plans.' + (seconds if several else ''),
         ),
         Claim(
             'The hybrid drives less than either symbolic search (Figure 7).',
