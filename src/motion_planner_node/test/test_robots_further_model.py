@@ -48,16 +48,16 @@ def word(_, number, start, end, pieces):
     pieces[2, 3] = other_way(turn) if number == 1 else turn
     return pieces[1, 1]
 '''
+KERNEL = """\
+    if steering == 4:
+        return scooter.word(radius, number, start, end, pieces)
+    return inf
+"""
 #: What the registry gets: its import, its place in the list, its number and kernel.
 LINES = (
     ('reverse_car\n', 'reverse_car, scooter\n'),
     ('omnidirectional.MODEL)', 'omnidirectional.MODEL, scooter.MODEL)'),
-    (
-        '    return inf\n',
-        '    if steering == 4:\n'
-        '        return scooter.word(radius, number, start, end, pieces)\n'
-        '    return inf\n',
-    ),
+    ('    return inf\n', KERNEL),
 )
 ASK = """
 import json
