@@ -93,6 +93,46 @@ def test_cells_are_open_as_far_as_the_car_can_be_in_them(chosen: list[Wall]) -> 
     assert cells.open.max() > 0.0
 
 
+@settings(max_examples=6, deadline=None)
+@given(
+    st.lists(
+        st.one_of(
+            st.tuples(*[st.integers(9, 50)] * 2, st.just(1), st.integers(20, 60)),
+            st.tuples(*[st.integers(9, 50)] * 2, st.integers(20, 60), st.just(1)),
+        ),
+        min_size=1,
+        max_size=4,
+    )
+)
+def test_a_lead_crosses_no_wall_however_thin(chosen: list[Wall]) -> None:
+    scene = scene_of(chosen)
+    rows = np.array([[START.x, START.y, 0.0], [110.0, 110.0, 0.0]])
+    if not scene.is_free(rows, CAR.body).all():
+        return
+    cells = decomposition(chosen)
+    lead = cells.lead(rows[:1], rows[1:])
+    assert lead[0] == cells.cell_of(START.x, START.y)
+    assert lead[-1] == cells.cell_of(110.0, 110.0)
+    room = room_of(chosen, CAR.radius - 1.5 * scene.free_space(CAR.body).resolution)
+    way = shapely.union_all([square(cells, cell).buffer(0.5) for cell in lead]).intersection(room)
+    ends = [shapely.Point(row[:2]) for row in rows]
+    assert any(all(part.distance(end) < 1e-9 for end in ends) for part in shapely.get_parts(way))
+
+
+def test_a_thin_wall_takes_no_lead_in_vain(monkeypatch: pytest.MonkeyPatch) -> None:
+    leads = 0
+    whole = Decomposition.corridor
+
+    def corridor(cells: Decomposition, lead: list[Cell], width: int) -> NDArray[np.bool_]:
+        nonlocal leads
+        leads += 1
+        return whole(cells, lead, width)
+
+    monkeypatch.setattr(Decomposition, 'corridor', corridor)
+    assert cell_rrt.cell_rrt(query_of([(24, 0, 2, 36)], 0)) is not None
+    assert leads == 1
+
+
 def tree_of(query: Query, monkeypatch: pytest.MonkeyPatch) -> tuple[Rows | None, list[Rows]]:
     """The path, and all pieces that were driven when the tree grew."""
     driven: list[Rows] = []
