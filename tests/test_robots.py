@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import itertools
+from math import cos, hypot, sin, tau
 
 import pytest
 import shapely
 import yaml
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
 
 from motion_planner_node.planner import MotionPlanner
 from motion_planner_node.requests import GeometricAnswer, GeometricRequest
@@ -51,10 +54,10 @@ def robot_line(label: str, model: str, shape: str) -> str:
 
 
 class Yard:
-    """The yard with some robots, a planner in it, and who judges its motions."""
+    """The yard, or another world, with some robots, a planner in it, and who judges its motions."""
 
-    def __init__(self, *robots: str) -> None:
-        text = YARD + ''.join(robots)
+    def __init__(self, *robots: str, world: str = YARD) -> None:
+        text = world + ''.join(robots)
         raw = yaml.safe_load(text)
         self.planner = MotionPlanner(read_world(text, 'yard.yaml'))
         self._robots = raw['robots']
@@ -76,6 +79,67 @@ class Yard:
             self._bounds,
         )
         return list(faults)
+
+
+def star(radii: list[float], turn: float, x: float = 0.0, y: float = 0.0) -> list[list[float]]:
+    """Corners all round a point, at these distances: a simple polygon, seldom convex."""
+    angles = [turn + tau * number / len(radii) for number in range(len(radii))]
+    return [
+        [round(x + radius * cos(angle), 3), round(y + radius * sin(angle), 3)]
+        for radius, angle in zip(radii, angles, strict=True)
+    ]
+
+
+def stars(least: float, most: float) -> st.SearchStrategy[tuple[list[float], float]]:
+    """Distances and turns of stars."""
+    return st.tuples(
+        st.lists(st.floats(least, most), min_size=4, max_size=8), st.floats(0.0, tau / 4)
+    )
+
+
+places = st.tuples(st.floats(3.0, 57.0), st.floats(3.0, 37.0))
+obstacles = st.lists(st.tuples(places, stars(1.0, 8.0)), min_size=2, max_size=5)
+attitudes = st.tuples(places, st.floats(-3.1, 3.1))
+planners = st.sampled_from(['default', 'rrt_connect', 'cell_rrt'])
+
+
+@pytest.mark.parametrize('model', COMMANDS)
+@settings(max_examples=6, deadline=None)
+@given(stars(0.4, 2.5), st.sampled_from([0, 0.3]), obstacles, attitudes, places, planners)
+def test_motions_among_random_polygons_are_faultless(
+    model: str,
+    footprint: tuple[list[float], float],
+    margin: float,
+    around: list[tuple[tuple[float, float], tuple[list[float], float]]],
+    start: tuple[tuple[float, float], float],
+    goal: tuple[float, float],
+    planner: str,
+) -> None:
+    """Whatever its outline, a robot gets through what is in its way, by its own commands alone."""
+    document = {
+        'bounds': [0, 0, 60, 40],
+        'objects': {'goal': dict(zip('xy', goal, strict=True))},
+        'obstacles': [
+            {'name': f'star{number}', 'polygon': star(*shape, *place)}
+            for number, (place, shape) in enumerate(around)
+        ],
+    }
+    shape = f'footprint: {star(*footprint)}, safety_margin: {margin}'
+    robot = f'  r: {{model: {model}, {COMMANDS[model]}, {shape}, speed: 2}}\n'
+    yard = Yard(robot, world=yaml.safe_dump(document) + 'robots:\n')
+    (x, y), heading = start
+    request = GeometricRequest(
+        '((agent r)(object goal)(distance(r, goal) <= 4))',
+        {'r': Attitude(x, y, heading)},
+        planner=planner,
+        seed=len(around),
+    )
+    answer = yard.planner.satisfy(request)
+    assume(answer.motion is not None)
+    assert yard.faults(answer) == []
+    end = answer.end['r']
+    assert hypot(end.x - goal[0], end.y - goal[1]) <= 4.0 + 1e-6
+    assert answer.clearance >= margin - 1e-6
 
 
 def test_every_model_is_known_to_the_textbook() -> None:

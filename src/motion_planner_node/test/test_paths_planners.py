@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
-from math import cos, hypot, pi, remainder, sin, tan, tau
+from math import cos, hypot, inf, pi, remainder, sin, tan, tau
 
 import numpy as np
 import pytest
@@ -176,20 +176,32 @@ def test_a_region_gives_better_ends() -> None:
     assert better.motion.length < 0.85 * plain.length
 
 
-@pytest.mark.parametrize('planner', ['default', 'rrt_connect', 'rrt_star', 'prm_star', 'cell_rrt'])
+class Polls:
+    """Counts how often a search asks whether to stop, and says so from the ``most``-th time on."""
+
+    def __init__(self, most: float = inf) -> None:
+        self.count = 0
+        self._most = most
+
+    def __call__(self) -> bool:
+        self.count += 1
+        return self.count >= self._most
+
+
+@pytest.mark.parametrize('planner', [name for name in PLANNERS if name != 'direct'])
 def test_every_planner_can_be_stopped_at_every_poll(planner: str) -> None:
-    scene = scene_of(WALL)
-    for most in (1, 2, 3):
-        polls = 0
-
-        def stop(most: int = most) -> bool:
-            nonlocal polls
-            polls += 1
-            return polls >= most
-
+    """The first ones, one in the middle of the search and the last one of all."""
+    scene, budget, polls = scene_of(WALL), PathBudget(iterations=150), Polls()
+    plan_path(scene, CAR, START, [GOALS[1]], 1, polls, budget, planner)
+    every = polls.count
+    assert every > 3
+    if planner in {'rrt_star', 'bit_star', 'prm_star'}:
+        assert every > budget.iterations
+    for most in (1, 2, 3, every // 2, every):
+        polls = Polls(most)
         with pytest.raises(Stopped):
-            plan_path(scene, CAR, START, [GOALS[1]], 1, stop, BUDGET, planner)
-        assert polls == most
+            plan_path(scene, CAR, START, [GOALS[1]], 1, polls, budget, planner)
+        assert polls.count == most
 
 
 def test_the_lattice_looks_at_the_clock_every_few_hundred_attitudes(
@@ -201,18 +213,11 @@ def test_the_lattice_looks_at_the_clock_every_few_hundred_attitudes(
         Polygon('a', ((29, 0), (31, 0), (31, 20), (29, 20))),
         Polygon('b', ((29, 22.0001), (31, 22.0001), (31, 50), (29, 50))),
     )
-    polls = 0
-
-    def count() -> bool:
-        nonlocal polls
-        polls += 1
-        return False
-
-    budget = PathBudget(attitudes=3000)
-    result = plan_path(scene_of(*door), CAR, START, [Attitude(54, 6, 0.0)], 1, count, budget)
+    polls, budget = Polls(), PathBudget(attitudes=3000)
+    result = plan_path(scene_of(*door), CAR, START, [Attitude(54, 6, 0.0)], 1, polls, budget)
     looked_at = [int(word) for word in result.reason.split() if word.isdigit()]
     assert result.motion is None or result.outcome is PathOutcome.FOUND
-    assert polls * lattice_end.CHUNK >= sum(looked_at[1:])
+    assert polls.count * lattice_end.CHUNK >= sum(looked_at[1:])
 
 
 def test_who_cannot_leave_is_told_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -222,18 +227,12 @@ def test_who_cannot_leave_is_told_at_once(monkeypatch: pytest.MonkeyPatch) -> No
         raise AssertionError('no sampling is needed')
 
     monkeypatch.setattr(portfolio, 'rrt_connect', sampled)
-    polls = 0
-
-    def count() -> bool:
-        nonlocal polls
-        polls += 1
-        return False
-
-    result = plan_path(scene_of(), CAR, Attitude(2.0, 25.0, pi), [GOALS[0]], 1, count)
+    polls = Polls()
+    result = plan_path(scene_of(), CAR, Attitude(2.0, 25.0, pi), [GOALS[0]], 1, polls)
     assert result.outcome is PathOutcome.NO_PATH
     assert 'all that there are' in result.reason
-    assert polls < 100
-    lost = plan_path(scene_of(), CAR, START, [Attitude(2.0, 25.0, 0.0)], 1, count)
+    assert polls.count < 100
+    lost = plan_path(scene_of(), CAR, START, [Attitude(2.0, 25.0, 0.0)], 1, polls)
     assert lost.outcome is PathOutcome.NO_PATH
 
 

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import gc
+import importlib
+import pkgutil
 from collections import Counter
 from functools import partial
 from math import pi
 from pathlib import Path
+from types import FunctionType, ModuleType
 
+import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import motion_planner_node
 from motion_planner_node.codes import Status
 from motion_planner_node.parameters import MODES, Parameters
 from motion_planner_node.planner import MOST_GROUNDS, MotionPlanner
@@ -18,6 +24,7 @@ from motion_planner_node.planning.cache import Cache
 from motion_planner_node.requests import AdviceRequest, GeometricRequest
 from motion_planner_node.robots.motion import Attitude
 from motion_planner_node.world import read_world
+from motion_planner_node.world.free_space import MOST_FIELDS, FreeSpace
 
 WORLD = Path(__file__).resolve().parents[2] / 'interface_node' / 'missions' / 'rover' / 'world.yaml'
 TEXT = WORLD.read_text(encoding='utf-8')
@@ -95,6 +102,53 @@ def test_what_is_forgotten_is_gone_without_the_garbage_collector() -> None:
     for kind in ('Ways', 'PaperWays', 'Pool', 'Stream', '_Recorder'):
         assert after[kind] - before[kind] <= 2, kind
     assert after['Stream'] - before['Stream'] == 2
+
+
+def all_that_is_held_by(root: object) -> list[object]:
+    """Everything that ``root`` refers to, but code and modules."""
+    found, left = {id(root): root}, [root]
+    while left:
+        for one in gc.get_referents(left.pop()):
+            if id(one) not in found and not isinstance(one, (ModuleType, FunctionType, type)):
+                found[id(one)] = one
+                left.append(one)
+    return list(found.values())
+
+
+def test_what_is_kept_is_bounded_in_number_and_in_bytes() -> None:
+    """However many requests come that differ in everything that they can differ in."""
+    planner = MotionPlanner(ROVER, Parameters(cache_size=4, planner='direct'))
+    random = np.random.default_rng(5)
+
+    def ask(count: int) -> int:
+        """Bytes of the arrays that are kept after so many requests and advices."""
+        for _ in range(count):
+            x, y = random.uniform((10.0, 10.0), (60.0, 60.0))
+            start = {'rover0': Attitude(x, y, 0.0)}
+            texts = tuple(NEAR.format('rover0', 'location1', x + k) for k in range(6))
+            planner.satisfy(GeometricRequest(texts[0], start, seed=int(x)))
+            planner.advise(AdviceRequest(texts, start, pairwise=True))
+        held = all_that_is_held_by(planner)
+        full = [len(one) for one in held if isinstance(one, Cache) and len(one) == one._size]
+        assert full == [4] * 5
+        assert all(len(one) <= one._size for one in held if isinstance(one, Cache))
+        spaces = [one for one in held if isinstance(one, FreeSpace)]
+        assert [len(one._fields) for one in spaces] == [MOST_FIELDS]
+        return sum(one.nbytes for one in held if isinstance(one, np.ndarray) and one.base is None)
+
+    assert ask(MOST_FIELDS + 4) == pytest.approx(ask(MOST_FIELDS + 4), rel=0.02)
+
+
+def test_no_kernel_or_reader_remembers_without_bound() -> None:
+    """The memories of functions, all over the package."""
+    sizes = {}
+    for module in pkgutil.walk_packages(motion_planner_node.__path__, 'motion_planner_node.'):
+        if not module.name.endswith(('node', 'conversions')) or module.ispkg:
+            for name, one in vars(importlib.import_module(module.name)).items():
+                if hasattr(one, 'cache_parameters'):
+                    sizes[name] = one.cache_parameters()['maxsize']
+    assert len(sizes) > 5
+    assert all(size is not None and size <= 1024 for size in sizes.values()), sizes
 
 
 def test_a_cache_tells_what_it_forgets_and_makes_it_anew() -> None:

@@ -153,10 +153,8 @@ def cell_rrt(query: Query) -> Rows | None:
     free = query.scene.free_space(query.robot.body)
     part = free.component_of(float(query.start[0]), float(query.start[1]))
     cells = Decomposition(free, part, CELL_SIDE * query.reach)
-    start = cells.cell_of(float(query.start[0]), float(query.start[1]))
-    ends = {cells.cell_of(float(x), float(y)) for x, y, _ in query.goals}
     for number in range(LEADS):
-        lead = cells.lead(start, ends)
+        lead = cells.lead(query.start[None, :], query.goals)
         if not lead:
             break
         tree = _Tree(query, cells, cells.corridor(lead, 1 + number), STEP * query.reach)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from heapq import heappop, heappush
-from math import hypot
+from math import hypot, inf
 
 import numpy as np
 from numpy.typing import NDArray
 
+from motion_planner_node.paths.edges import Rows
 from motion_planner_node.world.free_space import FreeSpace
+from motion_planner_node.world.regions import components, labels_at
 
 Cell = tuple[int, int]
 
@@ -17,11 +19,14 @@ LEAST_OPEN = 0.05
 
 
 class Decomposition:
-    """Square cells over the map, each with a weight: what a metre in it counts for a lead."""
+    """Square cells over the map, each with a weight: what a metre in it counts for a lead.
+
+    Where obstacles cut a cell into pieces, each piece has neighbours of its own.
+    """
 
     def __init__(self, free: FreeSpace, part: int, side: float) -> None:
         """Cells of about ``side`` [m] over connected ``part`` of the free space."""
-        fine = free.cells
+        fine, width = free.cells, free.resolution
         x, y = 0.5 * (fine.x_lo + fine.x_hi), 0.5 * (fine.y_lo + fine.y_hi)
         inside = free.components_of(x, y) == part
         x, y = x[inside], y[inside]
@@ -32,8 +37,22 @@ class Decomposition:
         counts = np.zeros(self.shape)
         np.add.at(counts, (rows, columns), 1.0)
         #: Share of each cell that is open, (rows, columns).
-        self.open = np.minimum(counts * (free.resolution / side) ** 2, 1.0)
+        self.open = np.minimum(counts * (width / side) ** 2, 1.0)
         self.weights = 1.0 / np.maximum(self.open, LEAST_OPEN)
+        self._fine = (float(x.min()) - 0.5 * width, float(y.min()) - 0.5 * width, width)
+        column = np.rint((x - x.min()) / width).astype(np.int64)
+        row = np.rint((y - y.min()) / width).astype(np.int64)
+        # With closed lines between the cells no component goes on in the next one.
+        apart = np.zeros(
+            (int(row.max()) + self.shape[0], int(column.max()) + self.shape[1]), np.bool_
+        )
+        apart[row + rows, column + columns] = True
+        numbers = components(apart)[row + rows, column + columns]
+        self._pieces = np.full((int(row.max()) + 1, int(column.max()) + 1), -1, np.int32)
+        self._pieces[row, column] = numbers
+        first = np.unique(numbers, return_index=True)[1]
+        self._cells = list(zip(rows[first].tolist(), columns[first].tolist(), strict=True))
+        self._next = _neighbours(self._pieces, len(first))
 
     def _indices(
         self, x: NDArray[np.float64], y: NDArray[np.float64]
@@ -52,31 +71,39 @@ class Decomposition:
             min(max(column, 0), self.shape[1] - 1),
         )
 
-    def lead(self, start: Cell, ends: set[Cell]) -> list[Cell]:
-        """The chain of cells of least weight from ``start`` to any of ``ends``; none if there is none."""
-        costs, before = {start: 0.0}, {start: start}
-        queue, done = [(0.0, start)], set()
+    def lead(self, start: Rows, ends: Rows) -> list[Cell]:
+        """The chain of cells of least weight from a place to any of others, (n, 2) or wider [m].
+
+        Cells that follow each other are joined by free space; empty when there is no chain.
+        """
+        (first,), last = self._pieces_at(start), set(self._pieces_at(ends))
+        costs, before = {first: 0.0}, {first: first}
+        queue, done = [(0.0, first)], set()
         while queue:
-            cost, cell = heappop(queue)
-            if cell in done:
+            cost, piece = heappop(queue)
+            if piece in done:
                 continue
-            done.add(cell)
-            if cell in ends:
-                chain = [cell]
-                while chain[-1] != start:
+            done.add(piece)
+            if piece in last:
+                chain = [piece]
+                while chain[-1] != first:
                     chain.append(before[chain[-1]])
-                return chain[::-1]
-            for row in range(max(cell[0] - 1, 0), min(cell[0] + 2, self.shape[0])):
-                for column in range(max(cell[1] - 1, 0), min(cell[1] + 2, self.shape[1])):
-                    if self.open[row, column] <= 0.0:
-                        continue
-                    step = hypot(row - cell[0], column - cell[1])
-                    weight = 0.5 * (self.weights[cell] + self.weights[row, column])
-                    through = cost + step * float(weight)
-                    if through < costs.get((row, column), np.inf):
-                        costs[row, column], before[row, column] = through, cell
-                        heappush(queue, (through, (row, column)))
+                return [self._cells[number] for number in chain[::-1]]
+            cell = self._cells[piece]
+            for near in self._next[piece]:
+                other = self._cells[near]
+                step = hypot(other[0] - cell[0], other[1] - cell[1])
+                weight = 0.5 * (self.weights[cell] + self.weights[other])
+                through = cost + step * float(weight)
+                if through < costs.get(near, inf):
+                    costs[near], before[near] = through, piece
+                    heappush(queue, (through, near))
         return []
+
+    def _pieces_at(self, places: Rows) -> list[int]:
+        """Numbers of the pieces at free places."""
+        x, y = np.ascontiguousarray(places[:, 0]), np.ascontiguousarray(places[:, 1])
+        return list(map(int, labels_at(self._pieces, *self._fine, x, y)))
 
     def corridor(self, lead: list[Cell], width: int) -> NDArray[np.bool_]:
         """The open cells at most ``width`` cells away from ``lead``, (rows, columns)."""
@@ -96,3 +123,18 @@ class Decomposition:
             x + float(columns.max() + 1) * self.side,
             y + float(rows.max() + 1) * self.side,
         )
+
+
+def _neighbours(pieces: NDArray[np.int32], count: int) -> list[list[int]]:
+    """The pieces next to each of ``count`` ones, by their numbers in fine cells, -1 where closed."""
+    framed = np.pad(pieces, 1, constant_values=-1)
+    pairs = [np.empty((0, 2), np.int32)]
+    for row, column in ((0, 1), (1, 0), (1, 1), (1, -1)):
+        one, other = framed, np.roll(framed, (-row, -column), (0, 1))
+        joined = (one >= 0) & (other >= 0) & (one != other)
+        pairs.append(np.unique(np.stack((one[joined], other[joined]), axis=1), axis=0))
+    near: list[set[int]] = [set() for _ in range(count)]
+    for one, other in np.vstack(pairs).tolist():
+        near[one].add(other)
+        near[other].add(one)
+    return [sorted(numbers) for numbers in near]
