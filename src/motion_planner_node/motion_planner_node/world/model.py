@@ -5,11 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import cos, sin
+from types import MappingProxyType
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from motion_planner_node.robots.robot import Robot
+
+_Value = TypeVar('_Value')
+
+
+def _fixed(labelled: Mapping[str, _Value]) -> Mapping[str, _Value]:
+    """A copy that cannot be changed."""
+    return MappingProxyType(dict(labelled))
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +37,9 @@ class WorldObject:
 
     label: str
     fields: Mapping[str, float]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, 'fields', _fixed(self.fields))
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,3 +136,7 @@ class World:
     robots: Mapping[str, Robot]
     regions: Mapping[str, Region] = field(default_factory=dict)
     map: OccupancyMap | None = None
+
+    def __post_init__(self) -> None:
+        for name in ('objects', 'robots', 'regions'):
+            object.__setattr__(self, name, _fixed(getattr(self, name)))
