@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import isclose, isfinite
+from math import isfinite
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,14 +16,16 @@ class Improvement:
 
 @dataclass
 class History:
-    """The lengths of the best plans, as they were told."""
+    """The best plans as they are told, in any order and perhaps more than once."""
 
-    improvements: list[Improvement] = field(default_factory=list)
+    _by_cost: dict[float, Improvement] = field(default_factory=dict)
 
-    def note(self, elapsed: float, length: float) -> bool:
-        """Note the length [m] of the best plan, infinite before the first; whether that is another one."""
-        known = self.improvements
-        if not isfinite(length) or (known and isclose(known[-1].length, length, rel_tol=1e-9)):
-            return False
-        known.append(Improvement(elapsed, length))
-        return True
+    def note(self, elapsed: float, length: float, cost: float) -> bool:
+        """Note the best plan, of infinite cost before the first; whether it was not noted before."""
+        told = Improvement(elapsed, length)
+        return isfinite(cost) and self._by_cost.setdefault(cost, told) is told
+
+    @property
+    def improvements(self) -> tuple[Improvement, ...]:
+        """The plans in the order in which they were found: each costs less than the one before."""
+        return tuple(self._by_cost[cost] for cost in sorted(self._by_cost, reverse=True))

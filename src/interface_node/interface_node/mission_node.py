@@ -63,7 +63,7 @@ class Mission:
         self._id = mission_id
         self._outputs = outputs
         self._around = surroundings
-        self._started = monotonic()
+        self._started = self._sent = monotonic()
         self._world = World()
         self._steps: list[Step] = []
         self._statistics = PlanningStatistics()
@@ -127,6 +127,7 @@ class Mission:
         held = around.peers.get_world(parameters.service_timeout, around.should_stop)
         self._world = held.world
         self._display(None, Outcome())
+        self._sent = monotonic()
         result = around.peers.plan_tasks(
             PlanTasks.Goal(
                 mission=self._id,
@@ -145,8 +146,11 @@ class Mission:
         outcome.diagnostics = [*accepted.diagnostics, *outcome.diagnostics]
         if outcome.value == Outcome.SOLVED:
             self._steps = result.steps
-            # Word of the last plan may come after the result.
-            self._history.note(monotonic() - self._started, self._message().length)
+        # Feedback that comes after the result is lost, but all of it is in the result once more.
+        for progress in result.improvements:
+            self._note(progress)
+            self._progress.best_length = progress.best_length
+            self._progress.best_cost = progress.best_cost
         return outcome
 
     def _finish(self, outcome: Outcome) -> PlanMission.Result:
@@ -214,7 +218,7 @@ class Mission:
             world_path=self._goal.world.path,
             seed=self._goal.options.seed,
         )
-        return replace(plan, improvements=tuple(self._history.improvements))
+        return replace(plan, improvements=self._history.improvements)
 
     def _display(self, message: GlobalPlan | None, outcome: Outcome) -> None:
         plan = self._plain(message or self._message(), outcome)
@@ -231,9 +235,14 @@ class Mission:
         self._forward(self._progress)
 
     def _hear(self, progress: PlanningProgress) -> None:
-        """Pass on how the task planner is getting on, and record each better plan."""
+        """Pass on how the task planner is getting on."""
+        self._note(progress)
         self._forward(progress)
-        if self._history.note(progress.elapsed, progress.best_length):
+
+    def _note(self, progress: PlanningProgress) -> None:
+        """Record what is told of a better plan."""
+        progress.elapsed += self._sent - self._started
+        if self._history.note(progress.elapsed, progress.best_length, progress.best_cost):
             self._record('/mission/progress', progress)
 
     def _forward(self, progress: PlanningProgress) -> None:

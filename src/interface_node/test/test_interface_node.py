@@ -212,6 +212,19 @@ def test_a_recording_without_all_events_is_a_warning(team: Team, tmp_path: Path)
     assert left == {'plan.json', 'mission.png', 'mission.mcap'} | trees
 
 
+@pytest.mark.parametrize('domain', ['solve', 'late'])
+def test_no_better_plan_is_lost_when_word_of_it_comes_late(
+    team: Team, tmp_path: Path, sample_plan: Plan, domain: str
+) -> None:
+    team.client.plan(domain, output_directory=str(tmp_path))
+    document = json.loads((tmp_path / 'plan.json').read_text(encoding='utf-8'))
+    lengths = [told['length'] for told in document['improvements']]
+    assert lengths == pytest.approx([sample_plan.length + worse for worse in (2.0, 1.0, 0.0)])
+    recorded = read_messages(tmp_path / 'mission.mcap')
+    told = [found.message for found in recorded if found.topic == '/mission/progress']
+    assert sorted(progress.best_length for progress in told) == pytest.approx(lengths[::-1])
+
+
 def test_a_parameter_is_changed_while_the_node_runs(interface: InterfaceNode) -> None:
     (refused,) = interface.set_parameters([Parameter('path_spacing', value=-1.0)])
     assert 'path_spacing must be a number from' in refused.reason

@@ -45,12 +45,19 @@ def test_the_contract_is_kept(sample_plan: Plan) -> None:
 def test_the_history_of_the_best_plan_is_told(sample_plan: Plan) -> None:
     assert read(sample_plan)['improvements'] == []
     history = History()
-    told = [history.note(*word) for word in ((0.5, inf), (1.0, 40.0), (1.5, 40.0), (2.5, 36.0))]
-    assert told == [False, True, False, True]
-    document = read(replace(sample_plan, improvements=tuple(history.improvements)))
+    words = (
+        (0.5, inf, inf),
+        (1.0, 40.0, 45.0),
+        (1.5, 40.0, 45.0),
+        (3.5, 36.0, 38.0),
+        (2.5, 37.0, 39.0),
+    )
+    assert [history.note(*word) for word in words] == [False, True, False, True, True]
+    document = read(replace(sample_plan, improvements=history.improvements))
     assert document['improvements'] == [
         {'elapsed': 1.0, 'length': 40.0},
-        {'elapsed': 2.5, 'length': 36.0},
+        {'elapsed': 2.5, 'length': 37.0},
+        {'elapsed': 3.5, 'length': 36.0},
     ]
 
 

@@ -245,4 +245,5 @@ def result_to_message(result: Result) -> PlanTasks.Result:
         steps=[step_to_message(step) for step in result.steps],
         others=[plan_to_message(plan) for plan in result.plans[1:]],
         statistics=statistics_to_message(result.statistics),
+        improvements=[progress_to_message(progress) for progress in result.improvements],
     )

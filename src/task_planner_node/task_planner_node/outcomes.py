@@ -68,7 +68,8 @@ class Progress:
 class Result:
     """The outcome with its explanation; ``details`` is for explain.
 
-    ``plans`` holds the plan when SOLVED, or several if so many were wanted, the best one first.
+    ``plans`` holds the plan when SOLVED, or several if so many were wanted, the best one first; ``improvements``
+    what was told of each plan that was better than all before.
     """
 
     outcome: Outcome
@@ -77,6 +78,7 @@ class Result:
     plans: tuple[Plan, ...] = ()
     statistics: Statistics = field(default_factory=Statistics)
     details: str = ''
+    improvements: tuple[Progress, ...] = ()
 
     @property
     def steps(self) -> tuple[Step, ...]:

@@ -42,8 +42,8 @@ PURPOSES = {'tour': Purpose.SHORTEST_TOUR, 'nearest_first': Purpose.NEAREST_FIRS
 class Planner:
     """One mission's way through loading, checking and searching.
 
-    ``should_stop`` tells that the client took the mission back; ``report`` hears progress, at most every
-    PROGRESS_INTERVAL seconds.
+    ``should_stop`` tells that the client took the mission back; ``report`` hears of every better plan at once, and
+    of progress at most every PROGRESS_INTERVAL seconds.
     """
 
     def __init__(
@@ -63,8 +63,7 @@ class Planner:
         self._statistics = Statistics()
         self._anytime: Anytime | None = None
         self._plans: Plans | None = None
-        self._first: Plan | None = None
-        self._told: Plan | None = None
+        self._improvements: list[Progress] = []
         self._problem: Problem | None = None
         self._domain: Domain | None = None
 
@@ -106,7 +105,8 @@ class Planner:
         kept = self._plans.kept if self._plans else ()
         plans = tuple(kept) if outcome == Outcome.SOLVED else ()
         details = details_of(explanation, self._anytime.search if self._anytime else None)
-        return Result(outcome, explanation, diagnostics, plans, self._statistics, details)
+        told = tuple(self._improvements)
+        return Result(outcome, explanation, diagnostics, plans, self._statistics, details, told)
 
     def _plan(
         self,
@@ -184,10 +184,10 @@ class Planner:
         plans = self._plans
         if plans is None or plan is not plans.best:
             return
-        self._statistics.improvements += self._first is not None
-        self._first = self._first or plan
-        if self._options.optimise or plan is not self._first:
-            self._say('searching', force=True)
+        progress = self._progress('searching', plan)
+        self._statistics.improvements = len(self._improvements)
+        self._improvements.append(progress)
+        self._report(progress)
 
     def _check(self) -> None:
         if self._should_stop():
@@ -197,39 +197,32 @@ class Planner:
         if self._say('searching') and resident() - self._held > self._options.memory_limit * 2**20:
             raise LimitReached(f'the memory limit of {self._options.memory_limit} MiB is reached')
 
-    def _improved(self, best: Plan | None) -> Plan | None:
-        """The best plan, if it was not told yet."""
-        if best is self._told:
-            return None
-        self._told = best
-        return best
-
     def _say(self, phase: str, force: bool = False) -> bool:
         """Report progress; whether it was time for that."""
-        elapsed = time.monotonic() - self._began
-        if not force and elapsed - self._reported < PROGRESS_INTERVAL:
+        if not force and time.monotonic() - self._began - self._reported < PROGRESS_INTERVAL:
             return False
-        self._reported = elapsed
+        self._report(self._progress(phase))
+        return True
+
+    def _progress(self, phase: str, improved: Plan | None = None) -> Progress:
+        """Where the search stands, to be reported."""
+        elapsed = self._reported = time.monotonic() - self._began
         problem, anytime = self._problem, self._anytime
         if problem is None or anytime is None:
-            self._report(Progress(phase, elapsed=elapsed))
-            return True
+            return Progress(phase, elapsed=elapsed)
         statistics = self._statistics
         position = anytime.running.position
         best = self._plans.best if self._plans else None
-        self._report(
-            Progress(
-                phase,
-                sum((goal.name, *goal.args) in anytime.state.facts for goal in problem.goals),
-                len(problem.goals),
-                statistics.requests,
-                statistics.backtracks + statistics.geometric_backtracks,
-                position[4] if position else 0,
-                position[1].length if position else 0.0,
-                best.length if best else inf,
-                elapsed,
-                best.cost if best else inf,
-                self._improved(best),
-            )
+        return Progress(
+            phase,
+            sum((goal.name, *goal.args) in anytime.state.facts for goal in problem.goals),
+            len(problem.goals),
+            statistics.requests,
+            statistics.backtracks + statistics.geometric_backtracks,
+            position[4] if position else 0,
+            position[1].length if position else 0.0,
+            best.length if best else inf,
+            elapsed,
+            best.cost if best else inf,
+            improved,
         )
-        return True
