@@ -1,9 +1,8 @@
 """The paper's language of geometric preconditions: reading, writing and checking it."""
 
 from motion_planner_node.language.check import check
+from motion_planner_node.language.grammar import MAXIMUM_DEPTH, MAXIMUM_ITEMS
 from motion_planner_node.language.parser import (
-    MAXIMUM_DEPTH,
-    MAXIMUM_ITEMS,
     MAXIMUM_SIZE,
     parse,
     read,
