@@ -35,7 +35,7 @@ def _has_circle(frame: Frame, pose: Pose, circle: Rows) -> bool:
         turn = 1.0 - 2.0 * side
         x = pose[0] - turn * frame.radius * sin(pose[2])
         y = pose[1] + turn * frame.radius * cos(pose[2])
-        if clearance_bounds(frame.shapes, frame.shapes.middles, x, y)[0] >= reach:
+        if clearance_bounds(frame.shapes, x, y)[0] >= reach:
             return True
         circle[0, 0] = turn / frame.radius
         if word_is_free(frame.shapes, frame.body, pose, circle):
@@ -87,14 +87,21 @@ def _have_room(frame: Frame, rows: Rows) -> NDArray[np.bool_]:
     return result
 
 
-def turning_room(scene: Scene, robot: Robot, rows: Rows) -> NDArray[np.bool_]:
-    """From which free attitudes (n, 3) there is a way on, (n,): no dead ends.
+class TurningRoom:
+    """Where one robot can turn round in one scene.
 
     A robot that only drives forward may never get out of a place unless it gets to one with room for
     a full circle; others need no room.  A car that can drive on for long is taken to get to one.
     """
-    model = MODELS[robot.kind]
-    if model.turns or model.reverses:
-        return np.ones(len(rows), np.bool_)
-    frame = frame_of(scene.shapes, robot.body, robot.steering, robot.turning_radius)
-    return _have_room(frame, np.ascontiguousarray(rows, np.float64))
+
+    def __init__(self, scene: Scene, robot: Robot) -> None:
+        model = MODELS[robot.kind]
+        self._is_everywhere = model.turns or model.reverses
+        # Several threads may look at the same time: nothing of it is written to.
+        self._frame = frame_of(scene.shapes, robot.body, robot.steering, robot.turning_radius)
+
+    def at(self, rows: Rows) -> NDArray[np.bool_]:
+        """From which free attitudes (n, 3) there is a way on, (n,): no dead ends."""
+        if self._is_everywhere:
+            return np.ones(len(rows), np.bool_)
+        return _have_room(self._frame, np.ascontiguousarray(rows, np.float64))

@@ -9,7 +9,7 @@ from math import floor
 import numpy as np
 from numpy.typing import NDArray
 
-from motion_planner_node.paths.turning_room import turning_room
+from motion_planner_node.paths.turning_room import TurningRoom
 from motion_planner_node.planning.boxes import Boxes, Pyramid
 from motion_planner_node.planning.steps import steps_from
 from motion_planner_node.robots.body import necessary_clearance
@@ -43,6 +43,7 @@ class Ground:
         self.scene = scene
         self.robot = robot
         self._free = scene.free_space(robot.body)
+        self._turning_room = TurningRoom(scene, robot)
         cells = self._free.cells
         self.cells = Pyramid(Boxes.of(cells.x_lo, cells.x_hi, cells.y_lo, cells.y_hi))
         #: Number of the connected part of the free space that each of ``cells`` is in, (n,).
@@ -94,7 +95,7 @@ class Ground:
     def can_turn_round(
         self, states: NDArray[np.float64], check_time: Callable[[], None]
     ) -> NDArray[np.bool_]:
-        """At which free attitudes (n, 3) there is room to turn, shape (n,); see `turning_room`.
+        """At which free attitudes (n, 3) there is room to turn, shape (n,); see `TurningRoom`.
 
         ``check_time`` is called now and then, and may raise.
         """
@@ -102,7 +103,7 @@ class Ground:
         for first in range(0, len(states), LOOKS):
             check_time()
             part = slice(first, first + LOOKS)
-            result[part] = turning_room(self.scene, self.robot, states[part])
+            result[part] = self._turning_room.at(states[part])
         return result
 
     def part_of(self, attitude: Attitude) -> int:
