@@ -42,6 +42,7 @@ class Sizes:
     vain: requests of each world that the reference searched in vain, at most
     patience: [s] that RRTConnect may take for a leg
     rounds, exchanges: times that advice and the service are tried
+    exchange_rounds: times that each request is asked through the service
     stopped: requests that are told to stop, in each world and in each way
     asked, early: requests after which memory is looked at
     """
@@ -54,7 +55,8 @@ class Sizes:
     compared: int = 24
     rounds: int = 50
     stopped: int = 120
-    exchanges: int = 300
+    exchanges: int = 1000
+    exchange_rounds: int = 5
     asked: int = 10_000
     early: int = 1_000
 
@@ -69,6 +71,7 @@ QUICK = Sizes(
     rounds=4,
     stopped=10,
     exchanges=20,
+    exchange_rounds=2,
     asked=60,
     early=20,
 )
@@ -192,7 +195,7 @@ class Experiment:
         from experiments.motion.service import measure
 
         known = self.known(PAPERS, self.sizes.exchanges)
-        service = measure(self.places[PAPERS], known)
+        service = measure(self.places[PAPERS], known, self.sizes.exchange_rounds)
         self.figures['service'] = service
         self.targets += [
             Target('request within the node, rover, p50 [ms]', service['node_ms_p50'], 5.0),

@@ -24,16 +24,19 @@ _NEGATION = 3
 
 def to_text(node: Preconditions | Item | Expression) -> str:
     """The text of ``node`` with no more parentheses than it needs."""
-    if isinstance(node, Preconditions):
-        statements = [f'({statement.concept} {statement.label})' for statement in node.statements]
-        items = [f'({to_text(item)})' for item in node.items]
-        return f'({" ".join(statements + items)})'
+    # The most frequent ones come first.
+    if isinstance(node, (Label, Constant)):
+        return node.name
+    if isinstance(node, (Call, Command)):
+        return f'{node.name}({", ".join(map(to_text, node.arguments))})'
+    if isinstance(node, Number):
+        return number_to_text(node.value)
     if isinstance(node, Constraint):
         return f'{to_text(node.left)} {node.comparator} {to_text(node.right)}'
     if isinstance(node, Condition):
         return to_text(node.call)
-    if isinstance(node, Call | Command):
-        return f'{node.name}({", ".join(map(to_text, node.arguments))})'
+    if isinstance(node, Property):
+        return f'{node.owner}.{node.name}'
     if isinstance(node, Operation):
         level = _PRECEDENCE[node.operator]
         left = _operand(node.left, level)
@@ -41,12 +44,9 @@ def to_text(node: Preconditions | Item | Expression) -> str:
         return f'{left} {node.operator} {right}'
     if isinstance(node, Negation):
         return f'-{_operand(node.operand, _NEGATION)}'
-    if isinstance(node, Property):
-        return f'{node.owner}.{node.name}'
-    if isinstance(node, Number):
-        return number_to_text(node.value)
-    assert isinstance(node, Constant | Label)
-    return node.name
+    statements = [f'({statement.concept} {statement.label})' for statement in node.statements]
+    items = [f'({to_text(item)})' for item in node.items]
+    return f'({" ".join(statements + items)})'
 
 
 def number_to_text(value: float) -> str:

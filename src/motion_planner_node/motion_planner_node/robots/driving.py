@@ -80,17 +80,22 @@ def shortest_between(
 ) -> NDArray[np.float64]:
     """Lengths [m] of the shortest obstacle-free motions, shape (n,): a lower bound.
 
-    ``starts`` and ``ends`` have the shapes (n, 3) or (3,), which is then used for all.
+    ``starts`` and ``ends`` have the shapes (n, 3), or (3,) or (1, 3) of one that is used for all.
     """
-    starts, ends = np.broadcast_arrays(
-        np.atleast_2d(np.asarray(starts, float)), np.atleast_2d(np.asarray(ends, float))
-    )
+    several = [len(rows) for rows in (starts, ends) if rows.ndim == 2 and len(rows) != 1]
+    count = several[0] if several else 1
     return shortest_lengths(
-        robot.steering,
-        robot.turning_radius,
-        np.ascontiguousarray(starts),
-        np.ascontiguousarray(ends),
+        robot.steering, robot.turning_radius, _repeated(starts, count), _repeated(ends, count)
     )
+
+
+def _repeated(rows: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+    """Attitudes (count, 3): ``rows``, or the only one for all."""
+    if rows.shape == (count, 3):
+        return np.ascontiguousarray(rows, np.float64)
+    result = np.empty((count, 3))
+    result[:] = rows
+    return result
 
 
 def _pose(attitude: Attitude) -> tuple[float, float, float]:
