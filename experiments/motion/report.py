@@ -39,9 +39,9 @@ The figures of `make experiment-motion` on one machine, written by the experimen
   until it has a path, for 3 s at most.
 - **Searches that are told to stop** are told so by a deadline or by another thread, 0 to 100 ms after they began. Beside
   another robot, which stands at a new place each time, the free space is worked out anew within the request.
-- **Through the service** all requests are asked in several rounds, each of a node that has just been started. Of the times
-  that a request took within the node the least counts, as others use the machine, too: medians of the fastest and the
-  slowest round stand beside it. What the service adds is the median of all exchanges of all rounds.
+- **Through the service** all requests are asked in several rounds, each of a node that has just been started, spread over
+  the run. Of the times of a request the least counts, as others use the machine, too; the medians of the fastest and of
+  the slowest round stand beside it.
 """
 
 VAIN = """\

@@ -10,10 +10,11 @@ import argparse
 import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import ceil
 from pathlib import Path
 from time import perf_counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from experiments.motion import report
 from experiments.motion.asking import ask, summary
@@ -21,6 +22,9 @@ from experiments.motion.reference import FOLDER, Known, read
 from experiments.motion.worlds import ROOT, WORLDS, Place
 from experiments.results import Target, machine, write_results
 from motion_planner_node.planner import warm_up
+
+if TYPE_CHECKING:
+    from experiments.motion.service import Exchanges
 
 PARTS = (
     'requests', 'vain', 'curve', 'planners', 'advice', 'stopping', 'service', 'memory', 'pictures',
@@ -94,6 +98,13 @@ class Experiment:
     def known(self, world: str, count: int) -> Sequence[Known]:
         """The first requests of a world."""
         return self.references[world].known[:count]
+
+    @cached_property
+    def exchanges(self) -> Exchanges:
+        """Requests through the service."""
+        from experiments.motion.service import Exchanges
+
+        return Exchanges(self.places[PAPERS], self.known(PAPERS, self.sizes.exchanges))
 
     def show(self, title: str, text: str) -> None:
         """Add a section, and print it."""
@@ -191,11 +202,10 @@ class Experiment:
         self.show('Searches that are told to stop', report.stopping_table(stopping))
 
     def run_service(self) -> None:
-        """Measure requests through the service."""
-        from experiments.motion.service import measure
-
-        known = self.known(PAPERS, self.sizes.exchanges)
-        service = measure(self.places[PAPERS], known, self.sizes.exchange_rounds)
+        """Measure requests through the service, with the rounds that were asked before."""
+        while len(self.exchanges) < self.sizes.exchange_rounds:
+            self.exchanges.ask()
+        service = self.exchanges.figures()
         self.figures['service'] = service
         self.targets += [
             Target('request within the node, rover, p50 [ms]', service['node_ms_p50'], 5.0),
@@ -294,7 +304,11 @@ def main() -> None:
     sizes = QUICK if arguments.quick else Sizes()
     warm_up()
     experiment = Experiment(sizes, arguments.output, arguments.world or list(WORLDS))
-    for part in arguments.only or PARTS:
+    parts = arguments.only or PARTS
+    for part in parts:
+        if 'service' in parts and len(experiment.exchanges) < sizes.exchange_rounds:
+            # Spread over the run, as a machine is slower for minutes when others use it.
+            experiment.exchanges.ask()
         began = perf_counter()
         getattr(experiment, f'run_{part}')()
         print(f'{part}: {perf_counter() - began:.0f} s', flush=True)

@@ -18,30 +18,45 @@ from experiments.motion.worlds import Place
 WARM_UP = 10
 
 
-def measure(place: Place, known: Sequence[Known], rounds: int) -> dict[str, Any]:
-    """Times [ms] of requests as the client and as the node see them.
+class Exchanges:
+    """The same requests in several rounds, each asked of a node that has just been started."""
 
-    All are asked in so many ``rounds``, each of a node that has just been started. Of the times that a request
-    took within the node the least counts, as others use the machine, too; those of single rounds are told beside it.
-    """
-    asked = [_ask(place, known) for _ in range(rounds)]
-    outside, inside, lost = (np.array(each) for each in zip(*asked, strict=True))
-    more = outside - inside
-    each = np.median(inside, axis=1)
-    least = inside.min(axis=0)
-    return {
-        'requests': len(known),
-        'rounds': rounds,
-        'not_found': int(lost.sum()),
-        'node_ms_p50': float(np.median(least)),
-        'node_ms_p95': float(np.percentile(least, 95)),
-        'fastest_round_node_ms_p50': float(each.min()),
-        'slowest_round_node_ms_p50': float(each.max()),
-        'client_ms_p50': float(np.median(outside)),
-        'client_ms_p95': float(np.percentile(outside, 95)),
-        'more_ms_p50': float(np.median(more)),
-        'more_ms_p95': float(np.percentile(more, 95)),
-    }
+    def __init__(self, place: Place, known: Sequence[Known]) -> None:
+        self._place = place
+        self._known = known
+        #: Times [ms] of each request as the client and as the node see them, and how many were not found.
+        self._rounds: list[tuple[list[float], list[float], int]] = []
+
+    def __len__(self) -> int:
+        return len(self._rounds)
+
+    def ask(self) -> None:
+        """Ask all once more."""
+        self._rounds.append(_ask(self._place, self._known))
+
+    def figures(self) -> dict[str, Any]:
+        """Times [ms] of all rounds, of which there is one at least.
+
+        Of the times of a request the least counts, as others use the machine, too; the medians of single rounds
+        within the node are told beside it.
+        """
+        outside, inside, lost = (np.array(each) for each in zip(*self._rounds, strict=True))
+        each = np.median(inside, axis=1)
+        more = (outside - inside).min(axis=0)
+        outside, inside = outside.min(axis=0), inside.min(axis=0)
+        return {
+            'requests': len(self._known),
+            'rounds': len(self),
+            'not_found': int(lost.sum()),
+            'node_ms_p50': float(np.median(inside)),
+            'node_ms_p95': float(np.percentile(inside, 95)),
+            'fastest_round_node_ms_p50': float(each.min()),
+            'slowest_round_node_ms_p50': float(each.max()),
+            'client_ms_p50': float(np.median(outside)),
+            'client_ms_p95': float(np.percentile(outside, 95)),
+            'more_ms_p50': float(np.median(more)),
+            'more_ms_p95': float(np.percentile(more, 95)),
+        }
 
 
 def _ask(place: Place, known: Sequence[Known]) -> tuple[list[float], list[float], int]:
