@@ -15,7 +15,7 @@ from typing import Any
 from lark.lexer import PatternStr
 
 from motion_planner_node.errors import MotionPlannerError
-from motion_planner_node.language.grammar import lalr_parser, number, parsed
+from motion_planner_node.language.grammar import component, label, lalr_parser, number, parsed
 from motion_planner_node.language.syntax import (
     Label,
     Node,
@@ -29,6 +29,13 @@ from motion_planner_node.language.syntax import (
 _FORMS, _LONGEST = 512, 400
 #: Words of a form that stand for all of their kind.
 _SAMPLES = {'NAME': 'a', 'VARIABLE': '?a', 'PROPERTY': 'a.b', 'NUMBER': '0'}
+
+#: Nodes of one word that a form leaves open, and what makes them of it.
+_LEAVES: dict[type[Any], Callable[[str, int, int], Node]] = {
+    Number: number,
+    Label: label,
+    Property: component,
+}
 
 #: A word of a text: what it is, its line and its column.
 Word = tuple[str, int, int]
@@ -110,8 +117,11 @@ def _filler(node: Any, at: dict[int, int]) -> _Filler:
         return lambda words: tuple([fill(words) for fill in fillers])
     kind = type(node)
     index = at[node.column] if isinstance(node, Node) else -1
+    if kind is Statement:
+        return _statement(index)
     if kind in _LEAVES:
-        return _LEAVES[kind](index)
+        leaf = _LEAVES[kind]
+        return lambda words: leaf(*words[index])
     parts = [_filler(getattr(node, name), at) for name in _parts_of(kind)]
     if index < 0:
         return lambda words: kind(*[fill(words) for fill in parts])
@@ -128,39 +138,9 @@ def _parts_of(kind: type[Any]) -> list[str]:
     return [field.name for field in fields(kind) if not field.kw_only]
 
 
-def _number(index: int) -> _Filler:
-    return lambda words: number(*words[index])
-
-
-def _label(index: int) -> _Filler:
-    def fill(words: list[Word]) -> Label:
-        name, line, column = words[index]
-        return Label(name, line=line, column=column)
-
-    return fill
-
-
-def _property(index: int) -> _Filler:
-    def fill(words: list[Word]) -> Property:
-        component, line, column = words[index]
-        owner, _, name = component.partition('.')
-        return Property(owner, name, line=line, column=column)
-
-    return fill
-
-
 def _statement(index: int) -> _Filler:
     def fill(words: list[Word]) -> Statement:
         concept, line, column = words[index]
         return Statement(concept, words[index + 1][0], line=line, column=column)
 
     return fill
-
-
-#: Nodes that are made of words that a form leaves open.
-_LEAVES: dict[type[Any], Callable[[int], _Filler]] = {
-    Number: _number,
-    Label: _label,
-    Property: _property,
-    Statement: _statement,
-}

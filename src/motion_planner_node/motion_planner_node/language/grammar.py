@@ -84,6 +84,17 @@ def number(text: str, line: int, column: int) -> Number:
     return Number(value, line=line, column=column)
 
 
+def label(text: str, line: int, column: int) -> Label:
+    """The label or variable that is written as ``text``."""
+    return Label(text, line=line, column=column)
+
+
+def component(text: str, line: int, column: int) -> Property:
+    """The property that is written as ``text``."""
+    owner, _, name = text.partition('.')
+    return Property(owner, name, line=line, column=column)
+
+
 def _not_too_deep(node: _AnyNode) -> _AnyNode:
     if depth(node) > MAXIMUM_DEPTH:
         message = f'the expression has more than {MAXIMUM_DEPTH} levels'
@@ -145,12 +156,11 @@ class _Builder:
 
     def label(self, children: list[Any]) -> Expression:
         (token,) = children
-        return Label(str(token), line=token.line, column=token.column)
+        return label(str(token), token.line, token.column)
 
     def component(self, children: list[Any]) -> Expression:
         (token,) = children
-        owner, _, name = token.partition('.')
-        return Property(owner, name, line=token.line, column=token.column)
+        return component(str(token), token.line, token.column)
 
     def call(self, children: list[Any]) -> Expression:
         token, *arguments = children
