@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import pi
+from typing import Any
 
 import numpy as np
 from matplotlib.collections import LineCollection
@@ -22,7 +23,7 @@ WORLD = World('w', 'r', (0.0, 0.0, 40.0, 30.0), {'gate': GATE}, robots=ROBOTS)
 SIGHT = '((agent scout)(agent guard)(object gate)(visible(guard, scout))(visible(scout, gate)))'
 
 
-def moved(agent: str, start: Attitude, end: Attitude, **fields: object) -> Step:
+def moved(agent: str, start: Attitude, end: Attitude, **fields: Any) -> Step:
     """A step whose drawn way is straight east; only where it starts and ends matters here."""
     return Step(
         ('!go', agent),
@@ -31,7 +32,7 @@ def moved(agent: str, start: Attitude, end: Attitude, **fields: object) -> Step:
         motion_start=start,
         segments=(Segment(0.0, end.x - start.x),),
         length=end.x - start.x,
-        **fields,  # type: ignore[arg-type]
+        **fields,
     )
 
 

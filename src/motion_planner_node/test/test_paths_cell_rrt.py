@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 from math import cos, hypot, remainder, sin, tan, tau
+from typing import Any
 
 import numpy as np
 import pytest
@@ -138,8 +139,8 @@ def tree_of(query: Query, monkeypatch: pytest.MonkeyPatch) -> tuple[Rows | None,
     driven: list[Rows] = []
     drive = cell_rrt._step
 
-    def step(frame: object, row: Rows, piece: Rows) -> tuple[bool, float, float, float]:
-        result = drive(frame, row, piece)  # type: ignore[arg-type]
+    def step(frame: Any, row: Rows, piece: Rows) -> tuple[bool, float, float, float]:
+        result = drive(frame, row, piece)
         driven.append(np.concatenate((row, piece[0], result)))
         return result
 

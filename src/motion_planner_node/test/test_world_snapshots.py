@@ -48,6 +48,7 @@ def test_nothing_of_a_world_can_be_changed(mission: str) -> None:
                 part.setflags(write=True)
         elif hasattr(part, 'items'):
             with pytest.raises(TypeError):
+                # What the types forbid is what must fail.
                 part['other'] = None  # type: ignore[index]
         else:
             assert isinstance(part, (str, bytes, int, float, tuple, type(None))), path

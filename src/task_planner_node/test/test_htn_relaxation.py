@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import pytest
 
@@ -22,10 +23,10 @@ def test_a_task_below_many_others_is_looked_at_as_often_as_one_on_top(
     looks = 0
     apply = _Relaxation._apply
 
-    def counted(self: _Relaxation, *arguments: object) -> bool:
+    def counted(self: _Relaxation, *arguments: Any) -> bool:
         nonlocal looks
         looks += 1
-        return apply(self, *arguments)  # type: ignore[arg-type]
+        return apply(self, *arguments)
 
     monkeypatch.setattr(_Relaxation, '_apply', counted)
     places = [f'p{number}' for number in range(count)]

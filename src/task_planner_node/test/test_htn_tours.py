@@ -22,6 +22,7 @@ from task_planner_node.oracle import (
     Status,
 )
 from task_planner_node.outcomes import Options, Outcome, Result
+from task_planner_node.parameters import Guidance
 from task_planner_node.search.guidance import leading_request
 from tests.support.sites import Point, Sites, label_of, shortest_way
 
@@ -183,10 +184,10 @@ def test_what_was_carried_changes_the_tour(plan: Planned) -> None:
 
 
 @pytest.mark.parametrize('guidance', ['tour', 'nearest_first'])
-def test_the_same_goal_may_be_wanted_twice(plan: Planned, guidance: str) -> None:
+def test_the_same_goal_may_be_wanted_twice(plan: Planned, guidance: Guidance) -> None:
     tasks = ['(call-on a)', '(call-on b)', '(call-on a)']
     facts = '(clock 0)(closes a 9)(closes b 9)'
-    options = Options(guidance=guidance, optimise=True)  # type: ignore[arg-type]
+    options = Options(guidance=guidance, optimise=True)
     result = plan(DOMAIN, unordered(tasks, facts), Sites(ZIGZAG), options)
     assert sorted(seen(result)) == ['a', 'a', 'b']
     assert result.plans[0].length == 4.0
