@@ -31,6 +31,7 @@ from experiments.paper.methods.trials import ATTITUDES_NAME, METHODS, Bench, Tri
 from experiments.paper.part import Part
 from experiments.paper.run import main
 from experiments.pictures.penalty import iterates
+from experiments.pictures import penalty
 from experiments.pictures.solver import EXAMPLE, RING
 from motion_planner_node.world.model import Polygon
 from task_planner_node.oracle import Query, Status
@@ -97,6 +98,22 @@ def test_the_worked_example_is_the_papers_but_for_its_rounding(
 
 
 def test_derived_codes_agree_with_differences_and_a_wrong_one_does_not(
+def test_all_descents_that_are_drawn_are_counted_and_end_within_the_constraints(
+    example: tuple[Part, Path],
+) -> None:
+    told = example[0].figures['descents']
+    count = worked_example.QUICK.descents
+    for mode in penalty.MODES:
+        ends = [
+            penalty.violation(penalty.descents(mode, penalty.starts(count, 1, heading)))
+            for heading in (None, 0.0)
+        ]
+        assert len(told['steps'][mode]) == 2 * count
+        assert told['greatest_violation'][mode] == max(ends) < 1e-8
+    begun = [np.array([[20.0, 270.0, 0.0]])]
+    assert penalty.violation(begun) > 10.0
+
+
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     found = checks(300, 5)

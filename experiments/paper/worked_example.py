@@ -88,8 +88,9 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
     worked = example()
     checked = checks(sizes.states, seed)
     write_csv(folder / 'table_2.csv', map(asdict, checked))
-    picture, steps = penalty.draw(folder / 'penalty', sizes.cells, sizes.descents, seed)
-    missed = {mode: penalty.violations(mode, sizes.descents, seed) for mode in penalty.MODES}
+    picture, drawn = penalty.draw(folder / 'penalty', sizes.cells, sizes.descents, seed)
+    steps = {mode: [len(states) - 1 for states in found] for mode, found in drawn.items()}
+    missed = {mode: penalty.violation(found) for mode, found in drawn.items()}
     wrong = max(check.printed for check in checked if not isnan(check.printed))
     library = max(check.library for check in checked)
     moved = hypot(*(worked.paper - worked.start)[:2])
@@ -180,5 +181,5 @@ Table 2 leaves out are 0 in the paper's gradient; the default solver's later ste
 The penalty of Figure 3's photo (50 to 100 m, object on the right), green where it is 0. Left, at the best heading for each position;
 right, at heading 0, from which those descents begin. Hollow dots are where descents begin, arrows are headings. In mode paper the
 {len(steps['paper'])} descents take at most {most['paper']} steps and end within {missed['paper']:.0e} of the constraints, in the default mode at
-most {most['default']} steps and {missed['default']:g}.
+most {most['default']} steps and {missed['default']:.0g}.
 """

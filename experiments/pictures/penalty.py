@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -83,15 +83,15 @@ def iterates(program: Program, state: Array) -> Array:
     return np.array(found)
 
 
-def draw(stem: Path, cells: int, count: int, seed: int) -> tuple[Path, dict[str, list[int]]]:
-    """Draw SVG and PNG; the latter's path, and the steps of each descent by mode.
+def draw(stem: Path, cells: int, count: int, seed: int) -> tuple[Path, dict[str, list[Array]]]:
+    """Draw SVG and PNG; the latter's path, and the iterates (k, 3) of each descent by mode.
 
     Rows are modes; columns the best heading, and heading 0, from which those descents begin.
     """
     x, y = FIELD.grid(cells)
     program = FIELD.program(PHOTO)
     figure, panels = plt.subplots(2, 2, figsize=(12.5, 10.4), layout='compressed')
-    steps: dict[str, list[int]] = {mode: [] for mode in MODES}
+    found: dict[str, list[Array]] = {mode: [] for mode in MODES}
     for mode, row in zip(MODES, panels, strict=True):
         fixed = paper_field if mode == 'paper' else at_heading
         fields = at_best_heading(program, x, y), fixed(program, x, y, 0.0)
@@ -102,16 +102,15 @@ def draw(stem: Path, cells: int, count: int, seed: int) -> tuple[Path, dict[str,
             axes.label_outer()
             drawn = descents(mode, starts(count, seed, heading))
             draw_descents(axes, drawn, ARROW)
-            steps[mode] += [len(states) - 1 for states in drawn]
+            found[mode] += drawn
     png = stem.with_suffix('.png')
     figure.savefig(stem.with_suffix('.svg'))
     figure.savefig(png, dpi=110)
     plt.close(figure)
-    return png, steps
+    return png, found
 
 
-def violations(mode: str, count: int, seed: int) -> float:
-    """The greatest violation [m or rad] where the drawn descents end."""
-    ends = [states[-1] for states in descents(mode, starts(count, seed, None))]
-    program = FIELD.program(PHOTO)
-    return float(np.maximum(program.violations(np.array(ends)), 0.0).max())
+def violation(descents: Iterable[Array]) -> float:
+    """The greatest violation [m or rad] of the photo's constraints where descents (k, 3) end."""
+    ends = np.array([states[-1] for states in descents])
+    return float(np.maximum(FIELD.program(PHOTO).violations(ends), 0.0).max())
