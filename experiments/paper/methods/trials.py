@@ -92,6 +92,8 @@ class Trial:
     length: [m] driven; NaN without a plan
     work: goals of conditions that were tried, and facts that were compared one by one
     steps: actions of the plan
+    decompositions: tasks decomposed and actions applied, also those that were taken back
+    reason: why there is no plan
     """
 
     graph: str
@@ -105,6 +107,8 @@ class Trial:
     requests: int
     backtracks: int
     steps: int
+    decompositions: int = 0
+    reason: str = ''
 
     @property
     def solved(self) -> bool:
@@ -167,6 +171,7 @@ class Bench:
     ) -> Trial:
         result = run.result
         told = result.statistics
+        reason = '' if ours.solved(run) else result.explanation.partition('\n')[0]
         return Trial(
             self.graph.name,
             method,
@@ -179,6 +184,8 @@ class Bench:
             told.requests,
             told.backtracks,
             len(result.steps),
+            told.decompositions,
+            reason,
         )
 
 
