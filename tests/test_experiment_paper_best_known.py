@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import shutil
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -70,6 +71,23 @@ def test_what_is_kept_is_made_again_by_its_command(found: Path, tmp_path: Path) 
     document = kept.read(found)
     search.main([*command_of(document), '--file', str(tmp_path / 'again.json')])
     assert kept.read(tmp_path / 'again.json') == document
+
+
+def test_the_command_tells_that_it_found_what_is_kept(
+    found: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / 'kept.json'
+    shutil.copyfile(found, file)
+    search.main([*command_of(kept.read(found)), '--file', str(file)])
+    assert capsys.readouterr().out.strip().endswith('the length of the tour that is kept')
+    assert file.read_bytes() == found.read_bytes()
+
+
+def test_lengths_are_told_beside_the_one_that_is_kept() -> None:
+    assert search.told(10.0 + 1e-12, 10.0) == search.told(10.0 - 1e-12, 10.0)
+    assert search.told(10.0, 10.0) == 'the length of the tour that is kept'
+    assert search.told(9.5, 10.0) == search.told(9.5, math.inf) == 'the shortest so far: kept'
+    assert search.told(12.0, 10.0) == '2.000 m longer than the tour that is kept'
 
 
 def test_what_is_no_shorter_is_not_kept(found: Path, tmp_path: Path) -> None:

@@ -41,6 +41,8 @@ from experiments.paper.orders import shortest_tours
 #: Figure 3: the distances [m] of a photo, and the heading less the bearing of the objective [rad].
 LOW, HIGH, ANGLE = 50.0, 100.0, 0.5 * math.pi
 START = 'location0'
+#: Lengths that differ by less than this share are the same.
+SAME = 1e-9
 
 
 def goals_of(place: Place) -> dict[str, Goal]:
@@ -97,6 +99,15 @@ def rings_of(goals: Iterable[Goal]) -> Array:
     return np.array([(ring.x, ring.y, ring.low, ring.high, ANGLE) for ring in rings])
 
 
+def told(length: float, known: float) -> str:
+    """How a tour's length [m] is beside that of the one that is kept."""
+    if math.isclose(length, known, rel_tol=SAME):
+        return 'the length of the tour that is kept'
+    if length < known:
+        return 'the shortest so far: kept'
+    return f'{length - known:.3f} m longer than the tour that is kept'
+
+
 def main(arguments: Iterable[str] | None = None) -> None:
     """Search, and keep what is better than what is kept."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -114,8 +125,11 @@ def main(arguments: Iterable[str] | None = None) -> None:
         began = time.perf_counter()
         legs, labels, length = round_of(place, lattice, np.random.default_rng(seed), effort)
         known = kept.read(wanted.file)['length'] if wanted.file.exists() else math.inf
-        print(f'seed {seed}: {length:.3f} m, {time.perf_counter() - began:.0f} s', flush=True)
-        if length < known:
+        print(
+            f'seed {seed}: {length:.3f} m, {time.perf_counter() - began:.0f} s, {told(length, known)}',
+            flush=True,
+        )
+        if length < known and not math.isclose(length, known, rel_tol=SAME):
             document = {
                 'made_by': 'python -m experiments.paper.best_known'
                 f' --seed {seed} --rounds 1 --orders {effort.orders}{" --quick" * wanted.quick}',
