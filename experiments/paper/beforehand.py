@@ -32,6 +32,8 @@ class Asking:
     def __init__(self, exchange: Exchange, seed: int) -> None:
         self._exchange, self._seed = exchange, seed
         self.requests = self.answers = 0
+        #: [s] in the motion planner, and of waiting for it in all.
+        self.inside = self.waiting = 0.0
 
     def ask(self, preconditions: str, start: Pose, alternative: int = 0) -> Any:
         """The answer, nothing when no motion was found."""
@@ -44,7 +46,10 @@ class Asking:
             seed=self._seed,
         )
         sent = srv.SatisfyPreconditions.Request(request=request)
+        began = time.perf_counter()
         answer = self._exchange(srv.SatisfyPreconditions, sent).answer
+        self.waiting += time.perf_counter() - began
+        self.inside += answer.time_spent
         self.answers += answer.status != msg.GeometricAnswer.ERROR
         return answer if answer.status == msg.GeometricAnswer.FOUND else None
 
@@ -77,6 +82,8 @@ def plan_beforehand(namespace: str, goals: int, alternatives: int, seed: int) ->
         'backtracks': 0,
         'geometric_backtracks': 0,
         'planning_time': time.perf_counter() - connected,
+        'request_time': asking.inside,
+        'transport_time': asking.waiting - asking.inside,
         'length': tour.length,
         'connecting_time': connected - began,
     }

@@ -20,7 +20,14 @@ METHODS: Mapping[str, tuple[str, ...]] = {
     'no advice': ('--no-advice',),
 }
 BEFOREHAND = 'all beforehand'
-COLUMNS = (*COUNTS, 'planning_time', 'length')
+SECONDS = ('planning_time', 'request_time', 'transport_time')
+COLUMNS = (*COUNTS, *SECONDS, 'length')
+HEADINGS = {
+    'planning_time': 'planning time [s]',
+    'request_time': 'in the motion planner [s]',
+    'transport_time': 'between the nodes [s]',
+    'length': 'length [m]',
+}
 #: What was counted in each plan, by the names of the methods.
 Counted = dict[str, list[Mapping[str, float]]]
 #: Median, least and greatest of each column, by the names of the methods.
@@ -96,7 +103,7 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
     head = ('mission, method', *(_heading(key) for key in COLUMNS))
     return Part(
         title='Messages, and geometry asked for beforehand',
-        text=_text(sizes, table(head, rows), without_answer),
+        text=_text(sizes, table(head, rows), without_answer, figures),
         figures={'sizes': figures, 'missions': others, 'without_answer': without_answer},
         claims=_claims(figures),
     )
@@ -132,8 +139,10 @@ def _claims(figures: Mapping[int, Figures]) -> tuple[Claim, ...]:
             'With geometric preprocessing "geometric computations are performed even for actions that '
             'will not be selected to belong to the final plan".',
             f'{count} photos take {lazy["requests"]:.0f} requests and {lazy["advices"]:.0f} advices, '
-            f'and {lazy["planning_time"]:.2f} s; asked for beforehand, {all_of_it["requests"]:.0f} '
-            f'requests and {all_of_it["planning_time"]:.1f} s.',
+            f'and {lazy["planning_time"]:.2f} s, {lazy["request_time"]:.2f} s of it in the motion planner; asked for '
+            f'beforehand, {all_of_it["requests"]:.0f} requests one after the other and {all_of_it["planning_time"]:.1f} s, '
+            f'{all_of_it["request_time"]:.1f} s of it in the motion planner. An advice is one message, but it works out '
+            'attitudes, costs between them, an order and legs.',
         ),
         Claim(
             '"Advices allow a reordering of tasks according to geometric aspects."',
@@ -144,23 +153,41 @@ def _claims(figures: Mapping[int, Figures]) -> tuple[Claim, ...]:
 
 
 def _heading(key: str) -> str:
-    units = {'planning_time': ' [s]', 'length': ' [m]'}
-    return key.replace('_', ' ') + units.get(key, '')
+    return HEADINGS.get(key, key.replace('_', ' '))
 
 
 def _cell(key: str, figure: Mapping[str, float]) -> str:
-    return f'{figure["median"]:.{2 if key == "planning_time" else 0}f}'
+    return f'{figure["median"]:.{2 if key in SECONDS else 0}f}'
 
 
-def _text(sizes: Sizes, lines: str, without_answer: float) -> str:
+def _inside(figures: Mapping[int, Figures]) -> str:
+    """What the motion planner does for each method, at the greatest number of photos."""
+    count = max(figures)
+    medians = {
+        name: {key: figure['median'] for key, figure in told.items()}
+        for name, told in figures[count].items()
+    }
+    spent = ', '.join(
+        f'{name} {told["request_time"]:.2f} s in {told["requests"] + told["advices"]:.0f} messages'
+        for name, told in medians.items()
+    )
+    asked = medians[BEFOREHAND]
+    each = [1e3 * asked[key] / asked['requests'] for key in SECONDS]
+    return f"""- **An advice** is one message and much work: attitudes of all candidates, what it costs to drive between them, and of a tour an order and its
+  legs as well ([ordering.md](ordering.md)). So the counts are those of messages, not of geometry that was computed; what that takes is the time in the
+  motion planner. For {count} photos: {spent}. Requests beforehand are calls of a service, one after the other: {each[0]:.1f} ms each,
+  {each[1]:.1f} ms of it in the motion planner and {each[2]:.1f} ms between the nodes."""
+
+
+def _text(sizes: Sizes, lines: str, without_answer: float, figures: Mapping[int, Figures]) -> str:
     lost = (
         f'{without_answer:.0f} requests have none'
         if without_answer
         else 'no request is without one'
     )
     return f"""
-Photos of random objectives in the rover's world, {sizes.sets} sets of each size, and other missions; medians. Each method has a seed of its own, and the tour
-is planned first, when the motion planner knows nothing of the world yet.
+Photos of random objectives in the rover's world, {sizes.sets} sets of each size, and other missions; medians. Each method has a seed of its own. The tour
+is planned first: of a world of photos, and of another mission with the first seed, the motion planner knows nothing then.
 
 {lines}
 
@@ -170,5 +197,6 @@ is planned first, when the motion planner knows nothing of the world yet.
   destinations; what it finds is a shortest tour among them, not among all.
 - **{'**, **'.join(sizes.missions)}**: missions of [missions.md](missions.md), with {sizes.sets} seeds each. In `samples` a memory, a store and calibrations restrict the
   order; a tour knows nothing of them, so the search steps back over what it proposes. Where only facts forbid what comes after an action, no other destination of it is asked for.
+{_inside(figures)}
 - `answers` are counted where they arrive, errors left out: {lost}. A request beforehand that has no answer with a motion is no arc of the graph.
 """
