@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,6 +20,7 @@ from experiments.paper.photos import WARM_UP, write_mission
 from experiments.paper.report import table
 from experiments.pictures.scales import plain_logarithms
 from experiments.planning import (
+    NODES,
     Nodes,
     NotSolvedError,
     middle_and_ends,
@@ -47,6 +48,14 @@ PANELS = {
         'memory_mb_interface_node': 'interface',
     },
 }
+#: Columns whose growth is a power of the number of goals.
+POWERS = (
+    'planning_time_median',
+    'search_time_median',
+    'request_time_median',
+    'length_median',
+    'requests_median',
+)
 
 
 @dataclass(frozen=True)
@@ -58,7 +67,7 @@ class Sizes:
 
 
 FULL = Sizes(goals=(8, 16, 32, 64, 128, 256), missions=3)
-QUICK = Sizes(goals=(8, 16), missions=1)
+QUICK = Sizes(goals=(8, 16), missions=2)
 
 
 def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
@@ -72,8 +81,9 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
             print(f'  {count} photos: {_told(figures[count], "planning_time", 2)} s', flush=True)
     records = [flat({'photos': count, **told}) for count, told in figures.items()]
     write_csv(folder / 'growth.csv', records)
-    columns = [column for curves in PANELS.values() for column in curves]
-    exponents = {column: fitted(records, column) for column in (*columns, 'requests_median')}
+    exponents = {column: fitted(records, column) for column in POWERS}
+    last = {column: fitted(records[-2:], column) for column in POWERS}
+    memory = {node: per_photo(figures, node) for node in NODES}
     picture = folder / 'growth.png'
     draw(records, exponents, picture)
     rows = [cells(count, told) for count, told in figures.items()]
@@ -90,8 +100,14 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
         ]
     return Part(
         title='Growth with the number of goals',
-        text=_text(sizes, table(list(rows[0]), [list(row.values()) for row in rows]), exponents),
-        figures={'sizes': figures, 'exponents': exponents},
+        text=_text(sizes, table(list(rows[0]), [list(row.values()) for row in rows]))
+        + (_growth(sizes, exponents, last, memory) if len(sizes.goals) > 1 else ''),
+        figures={
+            'sizes': figures,
+            'exponents': exponents,
+            'exponents_of_the_last_two_sizes': last,
+            'memory_kb_per_photo': memory,
+        },
         targets=targets,
         claims=_claims(figures),
         pictures=[picture],
@@ -99,15 +115,25 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
 
 
 def _claims(figures: Mapping[int, Mapping[str, Any]]) -> tuple[Claim, ...]:
-    told = [each for each in figures.values() if 'met_on_the_way' in each]
-    met = sum(each['met_on_the_way']['max'] > 0 for each in told)
-    most = max((each['shorter_m']['max'] for each in told), default=0.0)
+    told = {count: each for count, each in figures.items() if 'met_on_the_way' in each}
+    met = sum(each['met_on_the_way']['max'] > 0 for each in told.values())
+    count, most = max(
+        ((count, each['most_gained']) for count, each in told.items()),
+        key=lambda found: found[1]['share'],
+        default=(0, {'met': 0, 'metres': 0.0, 'share': 0.0}),
+    )
     return (
         Claim(
             'A research track is "to evaluate already generated paths in order to detect opportunities '
             'to achieve actions earlier".',
-            f'For {met} of {len(told)} numbers of photos there are plans that take some on the way of a '
-            f'motion for another one; that makes a plan up to {most:.0f} m shorter.',
+            f'For {met} of {len(told)} numbers of photos there are plans that take some on the way of a motion for another '
+            'one. '
+            + (
+                f'The most that it makes a plan shorter, as a share of the first one, is {most["share"]:.1%}: '
+                f'{most["metres"]:.0f} m of {count} photos, {most["met"]} of them met on the way.'
+                if most['met']
+                else 'It makes no plan shorter.'
+            ),
         ),
     )
 
@@ -124,14 +150,24 @@ def fitted(records: Sequence[Mapping[str, Any]], column: str) -> float:
     return float(np.polyfit(goals, values, 1)[0])
 
 
+def per_photo(figures: Mapping[int, Mapping[str, Any]], node: str) -> float:
+    """How much a node's memory grows for an added photo [kB], from the least number to the greatest; NaN for one number."""
+    few, many = min(figures), max(figures)
+    if few == many:
+        return math.nan
+    grown = figures[many]['memory_mb'][node] - figures[few]['memory_mb'][node]
+    return 1e3 * float(grown) / (many - few)
+
+
 def draw(records: Sequence[Mapping[str, Any]], exponents: Mapping[str, float], path: Path) -> None:
-    """Times, length and memory by the number of goals, on logarithmic scales, with the exponents."""
+    """Times, length and memory by the number of goals, on logarithmic scales, with exponents."""
     figure, panels = plt.subplots(1, len(PANELS), figsize=(12.0, 4.6), layout='constrained')
     counts = [told['photos'] for told in records]
     for axes, (label, curves) in zip(panels, PANELS.items(), strict=True):
         for column, name in curves.items():
             values = [told.get(column, math.nan) for told in records]
-            axes.plot(counts, values, 'o-', label=f'{name}: goals to the {exponents[column]:.2f}')
+            power = f': goals to the {exponents[column]:.2f}' if column in exponents else ''
+            axes.plot(counts, values, 'o-', label=name + power)
         axes.set(xscale='log', xlabel='photos', ylabel=label)
         axes.set_xticks(counts, [str(count) for count in counts])
         plain_logarithms(axes)
@@ -160,20 +196,46 @@ def _figures(plans: Sequence[Mapping[str, Any]], missions: int) -> dict[str, Any
         return told
     met = middle_and_ends([plan['statistics']['opportunities'] for plan in plans])
     shorter = middle_and_ends([gained(plan) for plan in plans])
-    return told | summary(plans) | {'met_on_the_way': met, 'shorter_m': shorter}
+    share = middle_and_ends([_share(plan) for plan in plans])
+    return (
+        told
+        | summary(plans)
+        | {'met_on_the_way': met, 'shorter_m': shorter, 'shorter_share': share}
+        | {'most_gained': most_gained(plans)}
+    )
 
 
 def gained(plan: Mapping[str, Any]) -> float:
     """By how much [m] a plan is shorter than the first one that was found.
 
-    Without ``--optimise`` nothing but goals that are met on the way makes it shorter.
+    Without ``--optimise`` nothing but what is met on the way leads to another plan; in that one it need not be met.
     """
     lengths = [found['length'] for found in plan['improvements']]
     return float(lengths[0] - lengths[-1]) if lengths else 0.0
 
 
-def _told(told: Mapping[str, Any], key: str, digits: int = 0) -> str:
-    return spread(told[key], digits) if key in told else 'none'
+def most_gained(plans: Iterable[Mapping[str, Any]]) -> dict[str, float]:
+    """Of the plan that became shortest by goals that it meets: how many, metres, share of the first plan.
+
+    All are 0 where no plan both meets a goal and is shorter than the first one.
+    """
+    found = [
+        {'met': met, 'metres': gained(plan), 'share': _share(plan)}
+        for plan in plans
+        if (met := plan['statistics']['opportunities']) and gained(plan) > 0.0
+    ]
+    nothing = {'met': 0, 'metres': 0.0, 'share': 0.0}
+    return max(found, key=lambda each: each['share'], default=nothing)
+
+
+def _share(plan: Mapping[str, Any]) -> float:
+    return gained(plan) / plan['improvements'][0]['length'] if gained(plan) else 0.0
+
+
+def _told(told: Mapping[str, Any], key: str, digits: int = 0, factor: float = 1.0) -> str:
+    if key not in told:
+        return 'none'
+    return spread({name: factor * value for name, value in told[key].items()}, digits)
 
 
 def cells(count: int, told: Mapping[str, Any]) -> dict[str, str]:
@@ -188,7 +250,8 @@ def cells(count: int, told: Mapping[str, Any]) -> dict[str, str]:
         'advices': _told(told, 'advices'),
         'length [m]': _told(told, 'length'),
         'met on the way': _told(told, 'met_on_the_way'),
-        'shorter by that [m]': _told(told, 'shorter_m', 1),
+        'shorter [m]': _told(told, 'shorter_m', 1),
+        'shorter [%]': _told(told, 'shorter_share', 2, 100.0),
         'unsolved': str(told['unsolved']),
         'memory: task planner [MB]': memory['task_planner_node'],
         'memory: motion planner [MB]': memory['motion_planner_node'],
@@ -196,21 +259,31 @@ def cells(count: int, told: Mapping[str, Any]) -> dict[str, str]:
     }
 
 
-def _text(sizes: Sizes, lines: str, exponents: Mapping[str, float]) -> str:
+def _text(sizes: Sizes, lines: str) -> str:
     return f"""
 Photos of random objectives. The world grows with them: the paper's obstacles are laid side by side once for every eight objectives, so that the density
 stays the paper's and each photo has as much room and as many obstacles around as before. {sizes.missions} random missions of each size; medians, and from least
 to greatest. **Met on the way** are photos that are taken on the way of a motion planned for another one, offered to the task planner as advice once
-there is a first plan. Memory is the most that each node has had resident so far; the small sizes come first. Nothing of a mission's world is known to the nodes before.
+there is a first plan; **shorter** is the plan than this first one, also where the search along what was offered led to one that meets nothing.
+Memory is the most that each node has had resident so far; the small sizes come first. Nothing of a mission's world is known to the nodes before.
 
 {lines}
-{_growth(exponents) if len(sizes.goals) > 1 else ''}"""
+"""
 
 
-def _growth(exponents: Mapping[str, float]) -> str:
+def _growth(
+    sizes: Sizes,
+    exponents: Mapping[str, float],
+    last: Mapping[str, float],
+    memory: Mapping[str, float],
+) -> str:
+    few, many = min(sizes.goals), max(sizes.goals)
+    before = sorted(sizes.goals)[-2]
+    powers = {name: f'{exponents[name]:.2f} ({last[name]:.2f})' for name in POWERS}
     return f"""
-The planning time grows as the number of photos to the {exponents['planning_time_median']:.2f}, what is spent in the motion planner as its power
-{exponents['request_time_median']:.2f}, and in the task planner as its power {exponents['search_time_median']:.2f} (least squares over the medians, in logarithms). The length
-grows as its power {exponents['length_median']:.2f}, the requests as its power {exponents['requests_median']:.2f}. The memory, with what a node holds before any mission, grows as the power
-{exponents['memory_mb_task_planner_node']:.2f} in the task planner, {exponents['memory_mb_motion_planner_node']:.2f} in the motion planner and {exponents['memory_mb_interface_node']:.2f} in the interface.
+Powers of the number of photos as which the figures grow, by least squares over the medians of all sizes, in logarithms, and in brackets from
+{before} to {many} photos alone: the planning time {powers['planning_time_median']}, what is spent in the motion planner {powers['request_time_median']} and in the
+task planner {powers['search_time_median']}; the length {powers['length_median']}, the requests {powers['requests_median']}. Where the figure in brackets is the greater one,
+the growth is getting steeper. The most memory grows from {few} to {many} photos by {memory['task_planner_node']:.0f} kB for each
+added photo in the task planner, {memory['motion_planner_node']:.0f} kB in the motion planner and {memory['interface_node']:.0f} kB in the interface.
 """
