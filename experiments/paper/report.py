@@ -40,8 +40,9 @@ def _where(seed: int) -> str:
     known = machine()
     return (
         f'Measured with seed {seed} on {known["cores"]} cores ({known["cpu"]}), Python '
-        f'{known["python"]}. Counts and lengths are the same everywhere but where a clock ends the '
-        'search: optimised plans, and searches given up after their processor time. Times are not.\n'
+        f'{known["python"]}. The same seed gives the same counts and lengths on a machine of this kind, but where a '
+        'clock ends something: optimised plans, searches given up after their processor time, requests whose time is '
+        'spent. On other machines the last digits of numbers may lead to other plans. Times differ everywhere.\n'
     )
 
 
