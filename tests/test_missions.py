@@ -56,6 +56,13 @@ def test_the_experiment_meets_its_targets(measured: Measured) -> None:
     assert len((measured.folder / 'missions.csv').read_text().splitlines()) == 1 + len(MISSIONS)
 
 
+def test_backtracks_among_tasks_and_among_destinations_are_told_apart(measured: Measured) -> None:
+    for told in measured.part.figures['plans']:
+        counts = measured.document(told['mission'])['statistics']
+        for name in ('backtracks', 'geometric_backtracks'):
+            assert told[name] == counts[name]
+
+
 @pytest.mark.parametrize('mission', MISSIONS)
 def test_the_same_seed_gives_the_same_plan(
     measured: Measured, nodes: str, tmp_path: Path, mission: str
