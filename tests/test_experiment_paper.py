@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 
 from experiments.paper.beforehand import Asking
 from experiments.paper.best_known import kept
-from experiments.paper.growth import cells, fitted, gained
+from experiments.paper.growth import cells, fitted, gained, most_gained, per_photo
 from experiments.paper.lower_bound import lower_bound
 from experiments.paper.mission import DEFAULT_EXCESS, OPTIMISED_EXCESS
 from experiments.paper.orders import Costs, shortest_tours
@@ -35,23 +35,38 @@ from tests.support.missions import ROVER
 BOUNDS = np.array([0.0, 0.0, 1000.0, 1000.0])
 RADIUS, HIGH, ARC = 5.0, 100.0, 6.0
 START = np.array([50.0, 50.0])
+#: With this seed the rover's default plan is 7 m longer than the optimised one.
+GAP_SEED = 3
 
 seeds = st.integers(0, 2**32 - 1)
 
 
-@pytest.fixture(scope='module')
-def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The parts on missions of photos in their smallest sizes, with a page on them."""
-    folder = tmp_path_factory.mktemp('paper')
-    only = [word for part in ('mission', 'messages', 'growth') for word in ('--only', part)]
-    main([*only, '--quick', '--output', str(folder), '--page', str(folder / 'docs' / 'page.md')])
+def reduced(folder: Path, seed: int, *parts: str) -> Path:
+    """Measure parts in their smallest sizes, with a page on them."""
+    only = [word for part in parts for word in ('--only', part)]
+    written = ['--output', str(folder), '--page', str(folder / 'docs' / 'page.md')]
+    main([*only, '--quick', '--seed', str(seed), *written])
     return folder
 
 
 @pytest.fixture(scope='module')
-def figures(run: Path) -> Mapping[str, Any]:
-    results: dict[str, Any] = json.loads((run / 'results.json').read_text(encoding='utf-8'))
-    measured: dict[str, Any] = results['figures']
+def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The parts on random missions of photos."""
+    return reduced(tmp_path_factory.mktemp('paper'), 1, 'messages', 'growth')
+
+
+@pytest.fixture(scope='module')
+def mission_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The part on the rover's mission."""
+    return reduced(tmp_path_factory.mktemp('mission'), GAP_SEED, 'mission')
+
+
+@pytest.fixture(scope='module')
+def figures(run: Path, mission_run: Path) -> Mapping[str, Any]:
+    measured: dict[str, Any] = {}
+    for folder in (run, mission_run):
+        results = json.loads((folder / 'results.json').read_text(encoding='utf-8'))
+        measured |= results['figures']
     return measured
 
 
@@ -71,9 +86,16 @@ def test_plans_are_nearly_as_short_as_the_best_known(figures: Mapping[str, Any])
 
 def test_an_order_that_is_found_is_shorter_than_the_printed_one(figures: Mapping[str, Any]) -> None:
     lengths = {name: m['length']['max'] for name, m in figures['mission']['methods'].items()}
-    assert (
-        lengths['default, optimised'] <= lengths['default'] < lengths["the paper's printed order"]
-    )
+    assert lengths['default'] < 0.95 * lengths['nearest first']
+    assert lengths['nearest first'] < lengths["the paper's printed order"]
+
+
+def test_optimising_makes_a_plan_shorter(figures: Mapping[str, Any]) -> None:
+    lengths = {name: m['length']['max'] for name, m in figures['mission']['methods'].items()}
+    assert lengths['default, optimised'] < lengths['default'] - 1.0
+    improved = [step['length'] for step in figures['mission']['improvements']]
+    assert len(improved) >= 2
+    assert improved == sorted(improved, reverse=True)
 
 
 def test_geometry_beforehand_takes_many_more_requests(figures: Mapping[str, Any]) -> None:
@@ -86,7 +108,10 @@ def test_geometry_beforehand_takes_many_more_requests(figures: Mapping[str, Any]
         assert methods['all beforehand']['requests'] > photos * methods['tour']['requests']
         assert methods['tour']['backtracks'] <= methods['no advice']['backtracks']
         assert methods['tour']['advices'] > methods['no advice']['advices'] == 0
-        assert methods['tour']['length'] < methods['no advice']['length']
+        assert methods['tour']['length'] < 0.97 * methods['nearest first']['length']
+        assert methods['nearest first']['length'] < methods['no advice']['length']
+        # A tour is told to the search at once, nearest first at every choice.
+        assert methods['tour']['advices'] < methods['nearest first']['advices']
 
 
 def test_a_mission_has_an_answer_to_every_request(figures: Mapping[str, Any]) -> None:
@@ -97,12 +122,13 @@ def test_errors_are_no_answers() -> None:
     kind = msg.GeometricAnswer
     statuses = [kind.FOUND, kind.UNKNOWN, kind.ERROR, kind.IMPOSSIBLE]
     replies = iter(
-        srv.SatisfyPreconditions.Response(answer=kind(status=status)) for status in statuses
+        srv.SatisfyPreconditions.Response(answer=kind(status=status, time_spent=0.5))
+        for status in statuses
     )
     asking = Asking(lambda _kind, _request: next(replies), seed=1)
     found = [asking.ask('((agent rover0))', (0.0, 0.0, 0.0)) for _ in statuses]
     assert [answer is not None for answer in found] == [True, False, False, False]
-    assert (asking.requests, asking.answers) == (4, 3)
+    assert (asking.requests, asking.answers, asking.inside) == (4, 3, 2.0)
 
 
 def test_advice_is_worth_the_steps_back_that_it_leads_to(figures: Mapping[str, Any]) -> None:
@@ -128,6 +154,31 @@ def test_requests_grow_in_proportion_to_goals(figures: Mapping[str, Any]) -> Non
     assert figures['growth']['exponents']['length_median'] < 1.3
 
 
+def test_photos_that_are_met_on_the_way_make_a_plan_shorter(figures: Mapping[str, Any]) -> None:
+    most = figures['growth']['sizes']['16']['most_gained']
+    assert most['met'] >= 1
+    assert most['metres'] > 5.0
+    told = figures['growth']['sizes']['16']
+    assert most['metres'] <= told['shorter_m']['max'] < 0.1 * told['length']['max']
+
+
+def test_what_is_gained_and_what_is_met_are_those_of_one_plan() -> None:
+    def found(met: int, *lengths: float) -> dict[str, Any]:
+        return {
+            'statistics': {'opportunities': met},
+            'improvements': [{'length': length} for length in lengths],
+        }
+
+    plans = [found(0, 100.0, 50.0), found(3, 200.0, 190.0), found(9, 900.0, 880.0), found(20, 9.0)]
+    assert most_gained(plans) == {'met': 3, 'metres': 10.0, 'share': 0.05}
+    assert most_gained([plans[0], plans[3]]) == {'met': 0, 'metres': 0.0, 'share': 0.0}
+
+
+def test_memory_grows_by_what_an_added_photo_takes() -> None:
+    sizes = {count: {'memory_mb': {'node': 80.0 + 0.5 * count}} for count in (8, 16, 32)}
+    assert per_photo(sizes, 'node') == pytest.approx(500.0)
+
+
 def rows_of(path: Path) -> list[dict[str, str]]:
     with path.open(encoding='utf-8') as file:
         return list(csv.DictReader(file))
@@ -141,16 +192,18 @@ def rows_of(path: Path) -> list[dict[str, str]]:
         ('growth/growth', set()),
     ],
 )
-def test_tables_for_programs_hold_numbers(run: Path, table: str, words: set[str]) -> None:
-    rows = rows_of(run / f'{table}.csv')
+def test_tables_for_programs_hold_numbers(
+    run: Path, mission_run: Path, table: str, words: set[str]
+) -> None:
+    rows = rows_of((mission_run if table.startswith('mission/') else run) / f'{table}.csv')
     assert {'length_median', 'length_min', 'length_max', 'planning_time_median'} <= set(rows[0])
     for row in rows:
         for name in set(row) - words:
             assert row[name] == '' or math.isfinite(float(row[name]))
 
 
-def test_targets_are_a_table_for_programs(run: Path, figures: Mapping[str, Any]) -> None:
-    values = {row['name']: float(row['value']) for row in rows_of(run / 'targets.csv')}
+def test_targets_are_a_table_for_programs(mission_run: Path, figures: Mapping[str, Any]) -> None:
+    values = {row['name']: float(row['value']) for row in rows_of(mission_run / 'targets.csv')}
     excess = figures['mission']['methods']['default']['length']['median'] / kept.read()['length']
     assert values['default: length over the best known, median'] == pytest.approx(excess - 1.0)
 
@@ -174,13 +227,14 @@ def test_a_table_has_a_column_for_each_name_of_any_record(tmp_path: Path) -> Non
     ]
 
 
-def test_the_page_shows_claims_tables_and_pictures(run: Path) -> None:
-    page = run / 'docs' / 'page.md'
-    text = page.read_text(encoding='utf-8')
-    assert '| the paper | here |' in text
-    pictures = re.findall(r'\]\((images/[^)]+)\)', text)
-    assert len(pictures) >= 3
-    assert all((page.parent / picture).stat().st_size > 1000 for picture in pictures)
+def test_the_page_shows_claims_tables_and_pictures(run: Path, mission_run: Path) -> None:
+    for folder, least in ((run, 1), (mission_run, 2)):
+        page = folder / 'docs' / 'page.md'
+        text = page.read_text(encoding='utf-8')
+        assert '| the paper | here |' in text
+        pictures = re.findall(r'\]\((images/[^)]+)\)', text)
+        assert len(pictures) >= least
+        assert all((page.parent / picture).stat().st_size > 1000 for picture in pictures)
 
 
 def test_a_page_tells_what_was_missed(tmp_path: Path) -> None:
@@ -281,3 +335,9 @@ def test_larger_worlds_are_as_dense_as_the_papers() -> None:
 def test_the_exponent_is_that_of_a_power() -> None:
     told = [{'photos': n, 'time': 0.01 * n**1.5} for n in (8, 16, 32)]
     assert fitted([*told, {'photos': 64}], 'time') == pytest.approx(1.5)
+
+
+def test_a_rising_tail_is_seen_in_the_last_exponent() -> None:
+    told = [{'photos': n, 'time': 0.01 * max(n, n**2 / 128)} for n in (8, 16, 32, 64, 128, 256)]
+    assert fitted(told, 'time') < 1.5
+    assert fitted(told[-2:], 'time') == pytest.approx(2.0)
