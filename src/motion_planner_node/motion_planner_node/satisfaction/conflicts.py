@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 _DESCENTS = 64
 #: Boxes looked at for the numbers of an explanation.
 _BUDGET = 4_000
+#: Boxes looked at before descents are made.
+_FEW = 1_000
 
 
 def contradiction(program: Program, bounds: Bounds) -> str | None:
@@ -34,6 +36,9 @@ def contradiction(program: Program, bounds: Bounds) -> str | None:
         return None
 
     def is_contradictory(rows: Sequence[int]) -> bool:
+        # Most proofs take few boxes, and descents that meet nothing take long.
+        if branch_and_prune(program, bounds, rows, budget=_FEW).is_empty:
+            return True
         return not _is_met(program, bounds, rows) and _excluded(program, bounds, rows).is_empty
 
     rows = minimal_conflict(range(len(program.rows)), is_contradictory)
