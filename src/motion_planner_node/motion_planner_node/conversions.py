@@ -85,6 +85,7 @@ def advice_request_from_msg(request: msg.AdviceRequest) -> AdviceRequest:
         seed=request.seed,
         request_id=request.request_id,
         pairwise=request.pairwise,
+        places=request.places,
         purpose=request.purpose,
         before=tuple(request.before),
         after=tuple(request.after),
@@ -153,6 +154,9 @@ def advice_to_msg(
         # An array is taken as it is; of a list a million numbers would be checked one by one.
         pairwise_lower_bounds=array('d', answer.pairwise_lower_bounds),
         pairwise_estimates=array('d', answer.pairwise_estimates),
+        places=[agent_state_to_msg(place.agent, place.attitude) for place in answer.places],
+        place_candidates=[place.candidate for place in answer.places],
+        place_lengths=array('d', answer.place_lengths),
         ends=[agent_state_to_msg(*end) if end else msg.AgentState() for end in answer.ends],
         tour_length=float(answer.tour_length),
         opportunities=[

@@ -94,7 +94,8 @@ class GeometricAnswer:
 class AdviceRequest:
     """What would each of these ground precondition texts cost from ``start``?
 
-    With ``pairwise`` also what each would cost after each other one.  For tours, candidate
+    With ``pairwise`` also what each would cost after each other one, and with ``places`` at which
+    attitudes it is met, so many at most and ``ends`` among them, and what lies between.  For tours, candidate
     ``before[k]`` has to come before candidate ``after[k]``, ``ends`` are attitudes to improve on,
     one for each candidate or none at all, and ``effort`` is how much is tried.  Opportunities are
     looked for along ``motions``, which are driven one after the other.
@@ -112,6 +113,7 @@ class AdviceRequest:
     ends: tuple[End | None, ...] = ()
     effort: int = 0
     motions: tuple[Motion, ...] = ()
+    places: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,12 +140,23 @@ class CandidateAdvice:
 
 
 @dataclass(frozen=True, slots=True)
+class Place:
+    """An ``attitude`` of the robot ``agent`` at which it meets ``candidate``."""
+
+    candidate: int
+    agent: str
+    attitude: Attitude
+
+
+@dataclass(frozen=True, slots=True)
 class AdviceAnswer:
     """Advice on every candidate, and the order in which to try them, impossible ones last.
 
     The pairwise costs [m] are matrices row by row, empty unless asked for; see `advice.pairwise`.
     Tours tell an end for each candidate, None where nothing is known, and the length [m] expected
-    of the whole tour, infinite where no way is known.
+    of the whole tour, infinite where no way is known.  The lengths of places [m] are a matrix
+    (n + 1, n) row by row, from where the robots stand now and then from each place; empty unless
+    asked for; see `advice.places`.
     """
 
     candidates: tuple[CandidateAdvice, ...]
@@ -154,3 +167,5 @@ class AdviceAnswer:
     ends: tuple[End | None, ...] = ()
     tour_length: float = 0.0
     opportunities: tuple[Opportunity, ...] = ()
+    places: tuple[Place, ...] = ()
+    place_lengths: tuple[float, ...] = ()

@@ -15,12 +15,16 @@ from motion_planner_node.tours.chains import Groups, best_chain
 from motion_planner_node.tours.exact import any_order, best_tour
 from motion_planner_node.tours.local_search import LocalSearch, best_place
 from motion_planner_node.tours.moves import NONE, best_move, make, neighbours, reversal, tables_of
+from motion_planner_node.tours.samples import next_to
 
 
-def groups_of(seed: int, goals: int, precedences: int, blocked: float = 0.0) -> Groups:
+def groups_of(
+    seed: int, goals: int, precedences: int, blocked: float = 0.0, sparse: bool = False
+) -> Groups:
     """Random groups of one to three attitudes, with random precedences that agree with an order.
 
-    There is no way between a share of the attitudes that is ``blocked``.
+    There is no way between a share of the attitudes that is ``blocked``; ``sparse`` ones have none
+    between groups of which no order has one right after the other, as those of `Samples`.
     """
     rng = np.random.default_rng(seed)
     count = np.concatenate(([1], rng.integers(1, 4, goals)))
@@ -36,7 +40,15 @@ def groups_of(seed: int, goals: int, precedences: int, blocked: float = 0.0) -> 
         before[hidden[i], hidden[j]] = True
     for middle in range(goals + 1):
         before |= np.outer(before[:, middle], before[middle])
-    return Groups(costs, first, count, before)
+    groups = Groups(costs, first, count, before)
+    return thinned(groups) if sparse else groups
+
+
+def thinned(groups: Groups) -> Groups:
+    """Without ways between groups that are in no order right after each other."""
+    owner = np.repeat(np.arange(len(groups.first)), groups.sizes)
+    used = next_to(groups.before)[owner][:, owner]
+    return groups._replace(costs=np.where(used, groups.costs, np.float32(inf)))
 
 
 def respects(groups: Groups, order: np.ndarray) -> bool:
@@ -58,7 +70,37 @@ def best_by_trying(groups: Groups) -> float:
     return min(length_by_trying(groups, o) for o in orders if respects(groups, np.array(o)))
 
 
-instances = st.builds(groups_of, st.integers(0, 2**32), st.integers(1, 5), st.integers(0, 3))
+instances = st.builds(
+    groups_of,
+    st.integers(0, 2**32),
+    st.integers(1, 5),
+    st.integers(0, 3),
+    sparse=st.booleans(),
+)
+complete = st.builds(groups_of, st.integers(0, 2**32), st.integers(1, 5), st.integers(0, 8))
+
+
+@given(complete)
+@settings(max_examples=60, deadline=None)
+def test_groups_are_next_to_each_other_where_some_order_has_them_so(groups: Groups) -> None:
+    expected = np.zeros_like(groups.before)
+    for goals in permutations(range(1, len(groups.first))):
+        if respects(groups, np.array((0, *goals))):
+            expected[(0, *goals[:-1]), goals] = True
+    assert (next_to(groups.before) == expected).all()
+
+
+@given(complete)
+@settings(max_examples=40, deadline=None)
+def test_costs_between_other_groups_do_not_count(groups: Groups) -> None:
+    order = best_tour(thinned(groups), never)
+    best = best_by_trying(groups)
+    assert best_chain(groups, order)[0] == pytest.approx(best, rel=1e-5)
+    assert best_chain(thinned(groups), order)[0] == pytest.approx(best, rel=1e-5)
+    fixed = groups._replace(before=np.triu(np.ones_like(groups.before), 1))
+    as_given = np.arange(len(groups.first))
+    assert best_chain(thinned(fixed), as_given)[0] == best_chain(groups, as_given)[0]
+    assert (best_tour(thinned(fixed), never) == as_given).all()
 
 
 @given(instances)
@@ -118,6 +160,7 @@ def test_a_reversal_is_valued_with_the_attitudes_that_are_best_after_it(groups: 
         st.integers(1, 30),
         st.integers(0, 6),
         st.sampled_from((0.0, 0.2, 0.6)),
+        st.booleans(),
     )
 )
 @settings(max_examples=60, deadline=None)
@@ -134,12 +177,12 @@ def test_a_move_is_allowed_and_makes_the_order_as_long_as_it_says(groups: Groups
         assert move.length == pytest.approx(best_chain(groups, tables.order)[0], rel=1e-5)
 
 
-@given(st.integers(0, 2**32), st.integers(1, 12), st.integers(0, 12))
+@given(st.integers(0, 2**32), st.integers(1, 12), st.integers(0, 12), st.booleans())
 @settings(max_examples=30, deadline=None)
 def test_the_local_search_keeps_precedences_and_never_gets_worse(
-    seed: int, goals: int, precedences: int
+    seed: int, goals: int, precedences: int, sparse: bool
 ) -> None:
-    groups = groups_of(seed, goals, precedences)
+    groups = groups_of(seed, goals, precedences, sparse=sparse)
     search = LocalSearch(groups, never)
     begin = search.tour(None, 0, np.random.default_rng(seed))
     order = search.tour(begin, 8, np.random.default_rng(seed))
@@ -147,7 +190,7 @@ def test_the_local_search_keeps_precedences_and_never_gets_worse(
     assert sorted(order) == list(range(goals + 1))
     assert respects(groups, begin)
     assert respects(groups, order)
-    assert best_chain(groups, order)[0] <= best_chain(groups, begin)[0] + 1e-3
+    assert best_chain(groups, order)[0] <= best_chain(groups, begin)[0] + 1e-3 < inf
     assert (order == again).all()
 
 

@@ -9,6 +9,7 @@ from math import inf
 from motion_planner_node.advice import pairwise
 from motion_planner_node.advice.costs import Driven, estimates, grouped, lower_bounds
 from motion_planner_node.advice.on_the_way import met_on_the_way
+from motion_planner_node.advice.places import with_places
 from motion_planner_node.advice.purposes import TOURS, check_purpose
 from motion_planner_node.advice.survey import Survey
 from motion_planner_node.advice.tours import with_tour
@@ -93,6 +94,8 @@ class Advisor:
         answer = AdviceAnswer(tuple(candidates), tuple(order), self._world.revision)
         if request.purpose in TOURS:
             answer = with_tour(answer, request, driven, should_stop)
+        if request.places:
+            answer = with_places(answer, request, driven, should_stop)
         if not request.pairwise:
             return answer
         bounds, estimates = pairwise.matrices(candidates, driven, should_stop)

@@ -31,7 +31,7 @@ def check_purpose(world: World, request: AdviceRequest) -> None:
         raise MotionPlannerError(
             Code.UNSUPPORTED, f'there is no purpose {request.purpose} of advice; there are {known}'
         )
-    if request.purpose in TOURS:
+    if request.purpose in TOURS or request.places:
         _check_ends(world, request)
     if request.purpose == Purpose.SHORTEST_TOUR:
         _check_precedences(request)

@@ -67,17 +67,10 @@ def _tour_of(
     should_stop: ShouldStop,
 ) -> Tour:
     first = driven[members[0]]
-    start = np.array([first.start.x, first.start.y, first.start.heading])
-    goals = []
-    for index in members:
-        program, states = driven[index].survey.problem.program, driven[index].reach.states
-        met = program.satisfied(states)
-        # Where no destination is known, the middles of cells stand for them.
-        goals.append(Goal(program, states[met] if met.any() else states))
     return TourSearch(
         first.survey.ground,
-        start,
-        goals,
+        np.array([first.start.x, first.start.y, first.start.heading]),
+        goals_of(members, driven),
         before[np.ix_(members, members)],
         request.seed,
         request.effort,
@@ -85,6 +78,17 @@ def _tour_of(
         _known_ends(members, driven, request),
         request.purpose == Purpose.FIXED_ORDER,
     ).run()
+
+
+def goals_of(members: list[int], driven: Mapping[int, Driven]) -> list[Goal]:
+    """The goals of a tour of one robot, with attitudes that meet them."""
+    goals = []
+    for index in members:
+        program, states = driven[index].survey.problem.program, driven[index].reach.states
+        met = program.satisfied(states)
+        # Where no destination is known, the middles of cells stand for them.
+        goals.append(Goal(program, states[met] if met.any() else states))
+    return goals
 
 
 def _known_ends(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from motion_planner_node.paths.edges import Row, Rows
 from motion_planner_node.planning.ground import Ground
@@ -20,10 +21,20 @@ STEERED = 10
 FIELDS = 48
 
 
+def next_to(before: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Whether a group may come right after another one, (groups, groups), by row and column.
+
+    ``before`` tells which groups have to come before which others, also by way of others.
+    """
+    between = before.astype(np.int64) @ before.astype(np.int64) > 0
+    return np.asarray(~before.T & ~between & ~np.eye(len(before), dtype=np.bool_))
+
+
 class Samples:
     """Group 0 is the start, group g + 1 goal g; see `chains` for what the arrays are.
 
-    costs: (N, N) [m]; those that were made real ones stay.
+    costs: (N, N) [m]; those that were made real ones stay.  They are worked out where a goal may
+    come right after another one: ``next_to`` (groups, groups) tells, and they are infinite elsewhere.
     """
 
     def __init__(
@@ -33,9 +44,11 @@ class Samples:
         start: Row,
         states: Sequence[Rows],
         most: int,
+        next_to: NDArray[np.bool_],
         should_stop: ShouldStop,
     ) -> None:
         self._ground, self._legs = ground, legs
+        self._next_to = next_to
         spare = SPARE if len(states) <= FEW else 2
         size = most + spare
         self._kept = np.array([1, *(len(rows) for rows in states)])
@@ -117,7 +130,7 @@ class Samples:
 
     def _cost_from(self, index: int, around: Row, steered: np.ndarray) -> None:
         """Work out the costs from the attitude number ``index``."""
-        active = self._active()
+        active = self._active() & self._next_to[self.owner[index]][self.owner]
         lengths = expected_lengths(
             self._legs.frame,
             self.states[index : index + 1],
@@ -129,14 +142,12 @@ class Samples:
         known = self._real[index]
         fresh = np.full(len(row), np.inf, np.float32)
         fresh[active] = lengths
-        fresh[self.owner == self.owner[index]] = np.inf
-        fresh[0] = np.inf
         self.costs[index] = np.where(known, row, fresh)
 
     def _cost_to(self, index: int, around: Row) -> None:
         """Work out the costs to the attitude number ``index`` from all others."""
         group = self.owner[index]
-        others = np.flatnonzero(self._active() & (self.owner != group))
+        others = np.flatnonzero(self._active() & self._next_to[self.owner, group])
         self.costs[others, index] = expected_lengths(
             self._legs.frame,
             self.states[others],

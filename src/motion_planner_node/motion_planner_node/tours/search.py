@@ -19,7 +19,7 @@ from motion_planner_node.tours.goals import Goal, attitudes, fit, passable
 from motion_planner_node.tours.legs import Legs
 from motion_planner_node.tours.local_search import LocalSearch
 from motion_planner_node.tours.refining import refined
-from motion_planner_node.tours.samples import Samples
+from motion_planner_node.tours.samples import Samples, next_to
 
 #: For no more goals than these all rounds of an effort are made.
 FEW = 16
@@ -151,7 +151,17 @@ class TourSearch:
         states = attitudes(
             goals, self._ground, self._start[None, :], self._part, most, self._should_stop
         )
-        samples = Samples(self._ground, self._legs, self._start, states, most, self._should_stop)
+        before = np.pad(self._before, ((1, 0), (1, 0)))
+        before[0, 1:] = True
+        samples = Samples(
+            self._ground,
+            self._legs,
+            self._start,
+            states,
+            most,
+            next_to(before),
+            self._should_stop,
+        )
         if self._ends is not None:
             samples.add(np.arange(len(goals)), self._ends, self._should_stop)
         return samples
