@@ -29,6 +29,7 @@ from task_planner_node.oracle import (
     Answer,
     CandidateAdvice,
     Opportunity,
+    Place,
     Scope,
     Status,
     Token,
@@ -102,6 +103,7 @@ def advice_to_message(query: AdviceQuery) -> AdviceRequest:
         after=[later for _, later in query.precedences],
         ends=[AgentState() if end is None else states_from_token(end)[0] for end in query.ends],
         effort=query.effort,
+        places=query.places,
         motions=[
             answer.payload.motion
             for answer in query.motions
@@ -127,6 +129,11 @@ def advice_from_message(message: AdviceAnswer) -> Advice:
             )
             for found in message.opportunities
         ),
+        tuple(
+            Place(int(index), token_from_states([state]))
+            for index, state in zip(message.place_candidates, message.places, strict=False)
+        ),
+        tuple(message.place_lengths),
     )
 
 

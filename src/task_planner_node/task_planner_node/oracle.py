@@ -114,6 +114,8 @@ class AdviceQuery:
     ``precedences`` are pairs of indices, the first of which has to come before the second.  ``ends`` are known
     attitudes of the agent for the candidates, None where there is none, to improve on with growing ``effort``.
     ``motions`` are the FOUND answers of a plan whose motions are looked along, one after the other.
+    So many ``places`` of each candidate, at most and with the ``ends`` among them, and what lies between are asked
+    for too.
     """
 
     start: Token
@@ -123,6 +125,7 @@ class AdviceQuery:
     ends: tuple[Token | None, ...] = ()
     effort: int = 0
     motions: tuple[Answer, ...] = ()
+    places: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,11 +154,20 @@ class Opportunity:
 
 
 @dataclass(frozen=True, slots=True)
+class Place:
+    """An attitude at which the candidate of that index is met."""
+
+    candidate: int
+    attitude: Token
+
+
+@dataclass(frozen=True, slots=True)
 class Advice:
     """Advice on every candidate, and their indices in the order to try; empty when there is none.
 
     ``ends`` are the attitudes of a tour, in the order of the candidates, None where none is known; ``opportunities``
-    are in the order in which they come up.
+    are in the order in which they come up.  ``place_lengths`` [m] are what is expected from where the robots stand to
+    each of n places, and then from each of these, (n + 1, n) row by row; infinite between those of different robots.
     """
 
     candidates: tuple[CandidateAdvice, ...]
@@ -163,6 +175,8 @@ class Advice:
     time_spent: float = 0.0
     ends: tuple[Token | None, ...] = ()
     opportunities: tuple[Opportunity, ...] = ()
+    places: tuple[Place, ...] = ()
+    place_lengths: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -168,7 +168,7 @@ def test_precedences_are_the_order_that_all_plans_share(
     result = plan(domain, text, world, options)
     assert result.outcome == Outcome.SOLVED
     read = read_mission(MissionText('d', domain), MissionText('p', text))[1]
-    itinerary = Itinerary(result.plans[0], read.tasks, frozenset())
+    itinerary = Itinerary(result.plans[0].log, read.tasks, frozenset())
     names = [label_of(motion.preconditions) for motion in itinerary.motions]
     pairs = {(names[a], names[b]) for a, b in itinerary.precedences(strict=True)}
     while more := {(a, d) for a, b in pairs for c, d in pairs if b == c} - pairs:

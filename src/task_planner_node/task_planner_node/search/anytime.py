@@ -11,8 +11,10 @@ from task_planner_node.search.domain import CompiledDomain, Start
 from task_planner_node.search.engine import Search
 from task_planner_node.search.geometry import Geometry
 from task_planner_node.search.improving import Improvement
+from task_planner_node.search.outlook import Outlook
 from task_planner_node.search.partial_plan import Limits
 from task_planner_node.search.plans import Plan, Plans
+from task_planner_node.search.rehearsal import Rehearsal
 from task_planner_node.search.state import State
 from task_planner_node.search.statistics import Statistics
 from task_planner_node.search.tours import Following, Tour
@@ -85,9 +87,18 @@ class Anytime:
             self._plans,
             self._limits,
             follow,
+            Rehearsal(
+                self._domain,
+                self._beginning,
+                root,
+                self.state.initial(),
+                self._geometry,
+                self._check,
+                start,
+            ),
         )
+        improvement.once()
         if not self._limits.optimise:
-            improvement.take_opportunities()
             return
         improvement.rounds()
         self.state = self.state.initial()
@@ -108,6 +119,12 @@ class Anytime:
         return Plans(limits, self._plans.keep) if self._improves else self._plans
 
     def _search(self, limits: Limits, plans: Plans) -> Search:
+        outlook = None
+        toured = limits.use_advice and limits.purpose == Purpose.SHORTEST_TOUR
+        if toured and limits.plans == 1 and not limits.optimise:
+            outlook = Outlook(
+                self._domain, self._beginning, self._root, self.state, self._geometry, self._check
+            )
         return Search(
             self._domain,
             self._beginning,
@@ -117,6 +134,7 @@ class Anytime:
             limits,
             self._check,
             plans,
+            outlook,
         )
 
     def _follow(self, start: Token, tour: Tour, limits: Limits, bound: float) -> Plan | None:

@@ -40,6 +40,7 @@ from task_planner_node.search.unbound import ground
 
 if TYPE_CHECKING:
     from task_planner_node.search.engine import Search
+    from task_planner_node.search.outlook import Outlook
 
 # Ways to decompose a task that are put in order; the others come after them.
 MOST_ORDERED = 64
@@ -57,12 +58,14 @@ class Candidates:
         state: State,
         geometry: Geometry,
         limits: Limits,
+        outlook: Outlook | None,
     ) -> None:
         self._search = search
         self._domain = domain
         self._state = state
         self._geometry = geometry
         self._limits = limits
+        self._outlook = outlook
         self._advisor = Advisor(geometry)
         self._landmarks = Landmarks(domain, beginning, state, geometry)
 
@@ -76,6 +79,14 @@ class Candidates:
         if not isinstance(front[0], Immediate):
             return self._in_order(position, chosen, first=not network[0].urgent)
         return chosen if network[0].urgent == 1 else self._in_order(position, chosen, first=True)
+
+    def on_tour(self, position: Position) -> Position:
+        """A position with the tour to follow, also where all is ordered: where to end, it tells too."""
+        network, where = position[:2]
+        if self._outlook is None or where.tour is not None or not _is_ordered(network):
+            return position
+        tour = self._outlook.tour(position, self._search.log)
+        return position if tour is None else _on_tour(position, Following(tour))
 
     def _in_order(self, position: Position, chosen: Position, first: bool) -> Moves:
         """All candidates, ``chosen`` before the others if it is the ``first``."""
@@ -104,7 +115,7 @@ class Candidates:
             yield _choosing(position, Chosen(*candidates[0], focus=True))
             candidates = candidates[1:]
         version = self._geometry.version
-        ordered = self._best_first(where, candidates, ask=not focused)
+        ordered = self._best_first(position, candidates, ask=not focused)
         if self._is_too_long(position):
             self._search.placed += 1
             return
@@ -144,19 +155,26 @@ class Candidates:
         return leading_request(self._domain, self._state, network, where)
 
     def _best_first(
-        self, where: Whereabouts, candidates: Sequence[tuple[Cell, Path]], ask: bool
+        self, position: Position, candidates: Sequence[tuple[Cell, Path]], ask: bool
     ) -> list[tuple[int, Following | None]]:
         """The indices of tasks in the order to try, each with the tour to follow if it is chosen."""
         parts = [part for part, _ in candidates]
+        where = position[1]
         tour = where.tour
         if tour is not None and tour.tour.lasting:
             return [(i, tour) for i in _sorted([tour.place(part) for part in parts])]
         if tour is not None and tour.covers(parts):
             order = _sorted([tour.place(part) for part in parts])
+            if tour.tour.complete:
+                return _first_on(tour, order)
             first = parts[order[0]]
             request = self._leading(where, first)
             if request is not None and tour.stop(request.text) == tour.place(first):
                 return _first_on(tour, order)
+        complete = self._outlook.tour(position, self._search.log) if self._outlook and ask else None
+        if complete is not None:
+            ahead_of_all = Following(complete)
+            return _first_on(ahead_of_all, _sorted([ahead_of_all.place(part) for part in parts]))
         requests = [self._leading(where, part) for part in parts]
         wanted = [request.text for request in requests if request is not None]
         stops = self._advisor.order(self._limits.purpose, where, wanted, ask) if wanted else {}
@@ -175,8 +193,9 @@ class Candidates:
         self, where: Whereabouts, requests: Sequence[Request | None]
     ) -> Sequence[int]:
         """The indices of ways to decompose a task, in the order to try."""
-        if where.tour is not None and where.tour.tour.lasting:
-            places = [where.tour.stop(r.text) if r is not None else None for r in requests]
+        tour = where.tour
+        if tour is not None and (tour.tour.lasting or tour.tour.complete):
+            places = [tour.stop(r.text) if r is not None else None for r in requests]
             if any(place is not None for place in places):
                 return _sorted(places)
         texts = [request.text for request in requests if request is not None]
@@ -187,10 +206,20 @@ class Candidates:
         return _sorted([ranks.get(r.text) if r is not None else None for r in requests])
 
     def _fitting(self, task: Task) -> list[CompiledMethod]:
-        if ground(task):
+        if not self._domain.loose or ground(task):
             methods = self._domain.methods.get(task[0], ())
             return [method for method in methods if method.bind(task) is not None]
         return self._domain.methods_for(task)
+
+
+def _is_ordered(network: Network) -> bool:
+    """Whether tasks come one after the other."""
+    part: Any = network
+    while part is not None:
+        if isinstance(part[0], Parallel):
+            return False
+        part = part[1]
+    return True
 
 
 def _front(network: Network) -> tuple[Cell, Path]:

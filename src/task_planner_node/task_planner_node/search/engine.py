@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import inf
+from typing import TYPE_CHECKING
 
 from task_planner_node.errors import LimitReached
 from task_planner_node.language.model import shorten, show
@@ -30,6 +31,9 @@ from task_planner_node.search.statistics import Statistics
 from task_planner_node.search.tours import Following
 from task_planner_node.search.ways import Ways
 
+if TYPE_CHECKING:
+    from task_planner_node.search.outlook import Outlook
+
 CHECK_INTERVAL = 64
 # A relaxation of the whole mission is examined when this many choices were taken back.
 PATIENCE = 1000
@@ -45,6 +49,7 @@ class Search:
     """Depth-first search over task choices, methods, bindings and geometric alternatives.
 
     ``check`` is called every CHECK_INTERVAL decompositions and raises to end the search; ``plans`` takes the plans.
+    ``outlook`` knows tours through all that is left.
     """
 
     def __init__(
@@ -57,6 +62,7 @@ class Search:
         limits: Limits,
         check: Callable[[], None],
         plans: Plans,
+        outlook: Outlook | None = None,
     ) -> None:
         self.dead_ends = DeadEnds()
         self.proofs: dict[Task, DeadEnd] = {}
@@ -78,7 +84,7 @@ class Search:
         self._statistics = statistics
         self._limits = limits
         self._check = check
-        self._ways = Ways(self, domain, beginning, state, geometry, limits)
+        self._ways = Ways(self, domain, beginning, state, geometry, limits, outlook)
         self._repeats = 0
         self._begun: set[tuple[object, tuple[int, Token]]] = set()
         self._steps = 0

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import cached_property
+from random import Random
 
 from task_planner_node.language.model import TaskNetwork
 from task_planner_node.oracle import AdviceQuery, Purpose, Token
 from task_planner_node.search.advice import MOST_ADVISED
+from task_planner_node.search.arranging import MOST_ARRANGED, Arranging, moved
 from task_planner_node.search.domain import CompiledDomain
 from task_planner_node.search.geometry import Geometry
 from task_planner_node.search.itinerary import Itinerary, Order
-from task_planner_node.search.partial_plan import Limits
+from task_planner_node.search.lengths import expected_lengths
+from task_planner_node.search.partial_plan import Limits, Whereabouts
 from task_planner_node.search.plans import Plan, Plans
+from task_planner_node.search.rehearsal import Rehearsal
 from task_planner_node.search.statistics import Statistics
 from task_planner_node.search.tours import Tour
 
@@ -20,9 +25,13 @@ MOST_FRUITLESS = 3
 MOST_ROUNDS = 16
 # What a plan has to be cheaper, as a share of its cost.
 LEAST_GAIN = 1e-4
+# What another order has to be expected to be shorter, as a share of the length.
+LEAST_EXPECTED = 1e-3
 # Requests and choices taken back while a proposal is searched along, beside those that each stop takes.
 SPARE_REQUESTS = 8
 SPARE_BACKTRACKS = 200
+# Orders of robots that wait for each other that are tried in one round, at most.
+MOST_VARIED = 40
 # Searches along a tour within limits, for a plan that costs less than a bound.
 Follow = Callable[[Tour, Limits, float], 'Plan | None']
 
@@ -39,6 +48,7 @@ class Improvement:
         plans: Plans,
         limits: Limits,
         follow: Follow,
+        rehearsal: Rehearsal,
     ) -> None:
         self._domain = domain
         self._root = root
@@ -47,6 +57,7 @@ class Improvement:
         self._plans = plans
         self._limits = limits
         self._follow = follow
+        self._rehearsal = rehearsal
         self._searched: Plan | None = None
         self._tried: set[object] = set()
         self._strict = False
@@ -57,23 +68,40 @@ class Improvement:
         for effort in range(1, MOST_ROUNDS + 1):
             before = self._plans.best
             self.take_opportunities()
-            self._reorder(effort)
+            if self._is_free:
+                self._reorder(effort)
+            else:
+                self._rearrange(effort)
+                if self._is_open:
+                    self._vary(effort)
             self._move(effort)
             fruitless = 0 if self._plans.best is not before else fruitless + 1
             if fruitless == MOST_FRUITLESS:
                 return
 
+    def once(self) -> None:
+        """What is done for a first plan: opportunities are taken, and robots that wait for each other wait less."""
+        self.take_opportunities()
+        if self._is_open and not self._is_free:
+            self._rearrange(0)
+
+    @property
+    def _is_open(self) -> bool:
+        """Whether where a robot has to stand depends on where others have gone before."""
+        itinerary = self._itinerary()
+        return itinerary is not None and bool(itinerary.open)
+
     def take_opportunities(self) -> None:
         """Meet what comes later on the way of earlier motions, where it is met there."""
-        itinerary = self._itinerary()
-        if itinerary is None or itinerary.plan is self._searched:
+        plan, itinerary = self._plans.best, self._itinerary()
+        if itinerary is None or plan is self._searched:
             return
-        self._searched = itinerary.plan
+        self._searched = plan
         answers = itinerary.answers
         leading = [i for i, a in enumerate(answers) if not a.assigned and a.length > 0]
-        texts = tuple(
-            dict.fromkeys(itinerary.motions[i].preconditions for run in itinerary.runs for i in run)
-        )[:MOST_ADVISED]
+        texts = tuple(dict.fromkeys(itinerary.texts[i] for run in itinerary.runs for i in run))[
+            :MOST_ADVISED
+        ]
         if len(leading) < 2 or len(texts) < 2:
             return
         start = itinerary.motions[leading[0]].start
@@ -93,10 +121,64 @@ class Improvement:
         ]
         order, taken = itinerary.with_opportunities(found, texts)
         if taken and self._try(itinerary, order):
-            wanted = [itinerary.motions[index].preconditions for index, _ in order]
+            wanted = tuple([itinerary.texts[index] for index, _ in order])
             better = self._itinerary()
-            if better and [motion.preconditions for motion in better.motions] == wanted:
+            if better and better.texts == wanted:
                 self._statistics.opportunities += taken
+
+    @cached_property
+    def _is_free(self) -> bool:
+        """Whether the motion planner's tours, which know nothing of the facts, can be followed."""
+        return self._rehearsed is None or self._rehearsal.is_free(self._rehearsed)
+
+    @cached_property
+    def _rehearsed(self) -> Itinerary | None:
+        """What comes of a rehearsal without a tour; None where rehearsals lead to nothing."""
+        return self._rehearsal.along()
+
+    def _rearrange(self, effort: int) -> None:
+        """Make other stops, or the same ones in another order, as far as that can be rehearsed."""
+        itinerary = self._itinerary()
+        if itinerary is None or not itinerary.runs or len(itinerary.texts) > MOST_ARRANGED:
+            return
+        run = itinerary.runs[-1]
+        start = itinerary.motions[run.start].start
+        where = Whereabouts(start, start, 0.0)
+        alternatives = self._rehearsal.alternatives
+        ends = {itinerary.texts[i]: end for i, end in itinerary.order if end is not None}
+        lengths = expected_lengths(self._geometry, where, itinerary, alternatives, ends)
+        if lengths is None:
+            return
+        arranging = Arranging(self._rehearsal.along, lengths, alternatives, seed=effort)
+        found = self._rehearsal.settled(arranging.best(itinerary))
+        expected = lengths.expected(found.texts)
+        if found.runs[-1:] != (run,) or expected > (1 - LEAST_EXPECTED) * lengths.expected(
+            itinerary.texts
+        ):
+            return
+        known = [index for index in run if index not in found.open]
+        texts = tuple([found.texts[index] for index in known])
+        query = AdviceQuery(start, texts, Purpose.FIXED_ORDER, effort=effort)
+        advice = self._geometry.advise(query, start)
+        if len(advice.ends) == len(known):
+            better = dict(zip(known, advice.ends, strict=True))
+            self._try(found, [(index, better.get(index)) for index in range(len(found.texts))])
+
+    def _vary(self, effort: int) -> None:
+        """Do tasks at other times where only the search itself tells what a motion comes to.
+
+        These are plans in which robots wait for each other: where one has to stand depends on the others.
+        """
+        itinerary = self._itinerary()
+        if itinerary is None or len(itinerary.texts) > MOST_ARRANGED:
+            return
+        orders = list(moved(len(itinerary.texts), itinerary.parts))
+        for order in Random(effort).sample(orders, min(MOST_VARIED, len(orders))):
+            ends = [
+                None if index in itinerary.open else itinerary.order[index][1] for index in order
+            ]
+            if self._try(itinerary, list(zip(order, ends, strict=True))):
+                return
 
     def _reorder(self, effort: int) -> None:
         """Make the stops in a shorter order, with attitudes to suit."""
@@ -142,7 +224,7 @@ class Improvement:
         advice = self._geometry.advise(
             AdviceQuery(
                 start,
-                tuple([itinerary.motions[index].preconditions for index in run]),
+                tuple([itinerary.texts[index] for index in run]),
                 purpose,
                 tuple(inside),
                 tuple([end for _, end in order]),
@@ -159,18 +241,23 @@ class Improvement:
 
     def _try(self, itinerary: Itinerary, order: Order) -> bool:
         """Search along an order of the stops; whether that led to a better plan."""
+        best = self._plans.best
         tour = itinerary.tour(order)
         proposal = tuple(tour.stops)
-        if proposal in self._tried or order == itinerary.order:
+        if best is None or proposal in self._tried or order == itinerary.order:
             return False
         self._tried.add(proposal)
+        if self._rehearsed is not None:
+            came = self._rehearsal.along(itinerary.tour([(index, None) for index, _ in order]))
+            if came is None or came.texts != tuple([stop.text for stop in tour.stops]):
+                return False
         limits = Limits(
             self._limits.max_depth,
             optimise=True,
             most_requests=2 * len(order) + SPARE_REQUESTS,
-            most_backtracks=2 * len(itinerary.plan.log) + SPARE_BACKTRACKS,
+            most_backtracks=2 * len(best.log) + SPARE_BACKTRACKS,
         )
-        bound = itinerary.plan.cost * (1 - LEAST_GAIN)
+        bound = best.cost * (1 - LEAST_GAIN)
         plan = self._follow(tour, limits, bound)
         if plan is None:
             return False
@@ -179,4 +266,6 @@ class Improvement:
 
     def _itinerary(self) -> Itinerary | None:
         best = self._plans.best
-        return Itinerary(best, self._root, self._domain.recursive) if best is not None else None
+        if best is None:
+            return None
+        return Itinerary(best.log, self._root, self._domain.recursive)

@@ -4,23 +4,38 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from task_planner_node.oracle import Answer, Purpose, Token
 from task_planner_node.search.methods import CompiledBranch
 from task_planner_node.search.network import Cell, Network, Path, Task
 from task_planner_node.search.operators import CompiledOperator
-from task_planner_node.search.tours import Following
 from task_planner_node.search.unbound import Values
+
+if TYPE_CHECKING:
+    from task_planner_node.search.tours import Following
+
+
+def origin_of(task: Task, parent: Expansion | None) -> int:
+    """A hash of a task and of all that it came from."""
+    chain = []
+    while parent is not None and parent.origin is None:
+        chain.append(parent)
+        parent = parent.parent
+    origin = parent.origin if parent is not None else 0
+    for expansion in reversed(chain):
+        origin = expansion.origin = hash((expansion.task, origin))
+    return hash((task, origin))
 
 
 class Expansion:
     """A task that was done by an operator or decomposed by a branch: one line of the search's log.
 
     ``since`` identifies the facts and the attitudes at a recursive task; ``mark`` is the length of the trail after an
-    operator.
+    operator.  ``origin`` is that of origin_of, once it was asked for.
     """
 
-    __slots__ = ('by', 'mark', 'motion', 'parent', 'place', 'since', 'task', 'values')
+    __slots__ = ('by', 'mark', 'motion', 'origin', 'parent', 'place', 'since', 'task', 'values')
 
     def __init__(
         self,
@@ -37,6 +52,7 @@ class Expansion:
         self.motion: Motion | None = None
         self.since: tuple[int, Token] | None = None
         self.values: Values | None = None
+        self.origin: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +140,8 @@ class Limits:
 
     ``max_depth`` counts the decompositions and actions of one plan.  ``plans`` is how many plans are wanted: the
     first ones, or the cheapest ones with ``optimise``.  ``purpose`` says which order of tasks advice is asked for.
-    ``most_requests`` and ``most_backtracks`` are how much a search may take before it gives up.
+    ``most_requests`` and ``most_backtracks`` are how much a search may take before it gives up.  A search that is
+    ``examined`` looks at a relaxation of the whole before it begins.
     """
 
     max_depth: int = 1_000_000
@@ -134,3 +151,4 @@ class Limits:
     purpose: Purpose = Purpose.SHORTEST_TOUR
     most_requests: int | None = None
     most_backtracks: int | None = None
+    examined: bool = True

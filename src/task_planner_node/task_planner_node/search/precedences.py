@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import count, pairwise
 
 from task_planner_node.language.model import Atom, Immediate, Ordered, Partial, TaskNetwork
 from task_planner_node.search.methods import CompiledBranch, closure
 from task_planner_node.search.partial_plan import Expansion
-from task_planner_node.search.plans import Plan
 
 Pair = tuple[int, int]
 
@@ -29,14 +28,14 @@ NOTHING = _Ends()
 class Precedences:
     """Pairs of stops, of which the first has to be made before the second.
 
-    ``stops`` are the indices of stops by the place of their operator in the plan's log, ``root`` is the network of
-    the problem.  A task that comes up again below itself is no part of an order that is not ``strict``: such a task
+    ``stops`` are the indices of stops by the place of their operator in the plan's ``log``, ``root`` is the network
+    of the problem, if the plan is one for it.  A task that comes up again below itself is no part of an order that is not ``strict``: such a task
     often stands for what is left to do, in an order that a binding chose.
     """
 
-    plan: Plan
+    log: Sequence[Expansion]
     stops: Mapping[int, int]
-    root: TaskNetwork
+    root: TaskNetwork | None
     recursive: frozenset[str]
     strict: bool
     pairs: list[Pair] = field(default_factory=list)
@@ -45,7 +44,7 @@ class Precedences:
         """The pairs; those that follow from others are left out."""
         below: dict[int, dict[int, _Ends]] = {}
         free: dict[int, set[int]] = {}
-        log = self.plan.log
+        log = self.log
         # Children come after their parents in the log.
         for index in range(len(log) - 1, -1, -1):
             expansion = log[index]
@@ -62,7 +61,8 @@ class Precedences:
             below.setdefault(parent, {})[expansion.place] = ends
             if not self.strict and self._repeats(expansion):
                 free.setdefault(parent, set()).add(expansion.place)
-        self._join(self.root, below.get(id(None), {}), set())
+        if self.root is not None:
+            self._join(self.root, below.get(id(None), {}), set())
         return self.pairs
 
     def _repeats(self, expansion: Expansion) -> bool:
@@ -103,6 +103,17 @@ class Precedences:
 
     def _pair(self, before: _Ends, after: _Ends) -> None:
         self.pairs.extend((one, other) for one in before.last for other in after.first)
+
+
+def without(left_out: Collection[int], pairs: Iterable[Pair]) -> set[Pair]:
+    """What ``pairs`` say of all other stops, also by way of those that are ``left_out``."""
+    found = set(pairs)
+    for stop in left_out:
+        before = [one for one, other in found if other == stop]
+        after = [other for one, other in found if one == stop]
+        found = {pair for pair in found if stop not in pair}
+        found.update((one, other) for one in before for other in after)
+    return found
 
 
 def _together(parts: Sequence[_Ends]) -> _Ends:

@@ -39,6 +39,7 @@ from task_planner_node.search.unbound import ground, resolved, substitute
 
 if TYPE_CHECKING:
     from task_planner_node.search.engine import Search
+    from task_planner_node.search.outlook import Outlook
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +65,7 @@ class Ways:
         state: State,
         geometry: Geometry,
         limits: Limits,
+        outlook: Outlook | None,
     ) -> None:
         self._search = search
         self._domain = domain
@@ -74,13 +76,14 @@ class Ways:
         self._log = search.log
         self._motions = Motions(search, state, geometry, limits)
         self._loosely = Loosely(domain, state)
-        self._candidates = Candidates(search, domain, beginning, state, geometry, limits)
+        self._candidates = Candidates(search, domain, beginning, state, geometry, limits, outlook)
 
     def beginnings(self, where: Whereabouts) -> Moves:
         """The networks of the problem."""
         least = self._domain.least_costs
         for network in self._beginning.networks(self._state):
-            if self._domain.geometric and self._search.hopeless(network, where):
+            examined = self._limits.examined and self._domain.geometric
+            if examined and self._search.hopeless(network, where):
                 continue
             rest = sum(least.get(task[0], 0.0) for task in all_tasks(network))
             yield network, where, 0.0, rest, 0, False, None
@@ -98,7 +101,7 @@ class Ways:
         if operator is None:
             return self._decompose(position, cell, path, focus)
         if operator.text is not None:
-            return self._motions.moves(position, cell, path, operator)
+            return self._motions.moves(self._candidates.on_tour(position), cell, path, operator)
         return self._apply(position, cell, path, operator)
 
     def _bind(self, position: Position, cell: Cell, path: Path, focus: bool) -> Moves:
