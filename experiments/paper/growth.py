@@ -60,14 +60,16 @@ POWERS = (
 
 @dataclass(frozen=True)
 class Sizes:
-    """Numbers of photos, and random missions of each."""
+    """Numbers of photos, and random missions of each; some are optimised for so many ``seconds``."""
 
     goals: tuple[int, ...]
     missions: int
+    optimised: tuple[int, ...]
+    seconds: float
 
 
-FULL = Sizes(goals=(8, 16, 32, 64, 128, 256), missions=3)
-QUICK = Sizes(goals=(8, 16), missions=2)
+FULL = Sizes(goals=(8, 16, 32, 64, 128, 256), missions=3, optimised=(8, 16, 32, 64), seconds=60.0)
+QUICK = Sizes(goals=(8, 16), missions=2, optimised=(16,), seconds=5.0)
 
 
 def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
@@ -79,6 +81,15 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
             plans = _plans(nodes, count, sizes.missions, seed, folder)
             figures[count] = _figures(plans, sizes.missions) | {'memory_mb': nodes.memory()}
             print(f'  {count} photos: {_told(figures[count], "planning_time", 2)} s', flush=True)
+        # Last, so that the memory of the nodes is that of first plans.
+        for count in sorted(figures.keys() & set(sizes.optimised)):
+            first = [plan['length'] for plan in _plans(nodes, count, sizes.missions, seed, folder)]
+            options = ('--optimise', '--time-budget', str(sizes.seconds))
+            best = _plans(nodes, count, sizes.missions, seed, folder, options)
+            if first and len(first) == len(best):
+                figures[count]['excess'] = excess(first, [plan['length'] for plan in best])
+            over = _told(figures[count], 'excess', 1, 100.0)
+            print(f'  {count} photos: {over} % over optimised', flush=True)
     records = [flat({'photos': count, **told}) for count, told in figures.items()]
     write_csv(folder / 'growth.csv', records)
     exponents = {column: fitted(records, column) for column in POWERS}
@@ -177,14 +188,24 @@ def draw(records: Sequence[Mapping[str, Any]], exponents: Mapping[str, float], p
     plt.close(figure)
 
 
+def excess(first: Sequence[float], best: Sequence[float]) -> dict[str, float]:
+    """By how much first plans are longer than the best ones of the same missions, as shares of these."""
+    return middle_and_ends([one / other - 1.0 for one, other in zip(first, best, strict=True)])
+
+
 def _plans(
-    nodes: Nodes, count: int, missions: int, seed: int, folder: Path
+    nodes: Nodes,
+    count: int,
+    missions: int,
+    seed: int,
+    folder: Path,
+    options: Sequence[str] = ('--time-budget', str(BUDGET)),
 ) -> list[Mapping[str, Any]]:
     plans: list[Mapping[str, Any]] = []
     for number in range(missions):
         mission = write_mission(folder / f'{count}_{number}', count, seed + number)
         try:
-            plans.append(nodes.plan(mission, seed, '--time-budget', str(BUDGET)))
+            plans.append(nodes.plan(mission, seed, *options))
         except NotSolvedError as error:
             print(f'  {error}', flush=True)
     return plans
@@ -234,7 +255,7 @@ def _share(plan: Mapping[str, Any]) -> float:
 
 def _told(told: Mapping[str, Any], key: str, digits: int = 0, factor: float = 1.0) -> str:
     if key not in told:
-        return 'none'
+        return ''
     return spread({name: factor * value for name, value in told[key].items()}, digits)
 
 
@@ -249,6 +270,7 @@ def cells(count: int, told: Mapping[str, Any]) -> dict[str, str]:
         'requests': _told(told, 'requests'),
         'advices': _told(told, 'advices'),
         'length [m]': _told(told, 'length'),
+        'over optimised [%]': _told(told, 'excess', 1, 100.0),
         'met on the way': _told(told, 'met_on_the_way'),
         'shorter [m]': _told(told, 'shorter_m', 1),
         'shorter [%]': _told(told, 'shorter_share', 2, 100.0),
@@ -265,6 +287,7 @@ Photos of random objectives. The world grows with them: the paper's obstacles ar
 stays the paper's and each photo has as much room and as many obstacles around as before. {sizes.missions} random missions of each size; medians, and from least
 to greatest. **Met on the way** are photos that are taken on the way of a motion planned for another one, offered to the task planner as advice once
 there is a first plan; **shorter** is the plan than this first one, also where the search along what was offered led to one that meets nothing.
+**Over optimised** is how much longer the plan is than that of the same mission after {sizes.seconds:g} s of `--optimise`, which is no bound, but tells what more time would find.
 Memory is the most that each node has had resident so far; the small sizes come first. Nothing of a mission's world is known to the nodes before.
 
 {lines}

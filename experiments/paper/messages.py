@@ -105,7 +105,7 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
         title='Messages, and geometry asked for beforehand',
         text=_text(sizes, table(head, rows), without_answer, figures),
         figures={'sizes': figures, 'missions': others, 'without_answer': without_answer},
-        claims=_claims(figures),
+        claims=_claims(figures, others),
     )
 
 
@@ -128,7 +128,7 @@ def _without_answer(found: Counted) -> float:
     return sum(row['requests'] - row['answers'] for rows in found.values() for row in rows)
 
 
-def _claims(figures: Mapping[int, Figures]) -> tuple[Claim, ...]:
+def _claims(figures: Mapping[int, Figures], others: Mapping[str, Figures]) -> tuple[Claim, ...]:
     count = max(figures)
     lazy, all_of_it, without = (
         {key: figure['median'] for key, figure in figures[count][name].items()}
@@ -147,9 +147,19 @@ def _claims(figures: Mapping[int, Figures]) -> tuple[Claim, ...]:
         Claim(
             '"Advices allow a reordering of tasks according to geometric aspects."',
             f'The plan of {count} photos is {lazy["length"]:.0f} m long; without advice, in the order '
-            f'of the problem, {without["length"]:.0f} m.',
+            f'of the problem, {without["length"]:.0f} m. {_restricted(others)}',
         ),
     )
+
+
+def _restricted(others: Mapping[str, Figures]) -> str:
+    """The lengths of missions whose order the facts restrict."""
+    told = [
+        f'`{name}` {methods["tour"]["length"]["median"]:.0f} m against '
+        f'{methods["no advice"]["length"]["median"]:.0f} m'
+        for name, methods in others.items()
+    ]
+    return f'Where facts restrict the order: {", ".join(told)}.'
 
 
 def _heading(key: str) -> str:
@@ -196,7 +206,8 @@ is planned first: of a world of photos, and of another mission with the first se
   from each of them to each of the others', one request each, and after that the exact shortest tour through this graph. It sees only these
   destinations; what it finds is a shortest tour among them, not among all.
 - **{'**, **'.join(sizes.missions)}**: missions of [missions.md](missions.md), with {sizes.sets} seeds each. In `samples` a memory, a store and calibrations restrict the
-  order; a tour knows nothing of them, so the search steps back over what it proposes. Where only facts forbid what comes after an action, no other destination of it is asked for.
+  order. The task planner rehearses orders before it asks for a motion ([ordering.md](ordering.md#rehearsals)), so that no request is made for what the facts forbid.
+  In `guards` one more order is driven once the first plan tells where the robots wait for each other, hence twice the requests.
 {_inside(figures)}
 - `answers` are counted where they arrive, errors left out: {lost}. A request beforehand that has no answer with a motion is no arc of the graph.
 """

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from task_planner_node.oracle import (
     Advice,
@@ -13,6 +13,7 @@ from task_planner_node.oracle import (
     Answer,
     CandidateAdvice,
     Opportunity,
+    Place,
     Purpose,
     Query,
     Scope,
@@ -28,8 +29,8 @@ Point = tuple[float, float]
 class Sites:
     """Each label has the points from which it is seen.  ``((near a))`` is met at any point of a; one starts at (0, 0).
 
-    Advice of effort 0 knows the first point of each label only when it is ``careless``.  ``shut`` labels are never
-    reached, and ``narrow`` ones not where that is preferred.
+    Advice of effort 0 knows the first point of each label only when it is ``careless``; its places are all points that
+    it knows.  ``shut`` labels are never reached, and ``narrow`` ones not where that is preferred.
     """
 
     points: Mapping[str, Sequence[Point]]
@@ -71,6 +72,10 @@ class Sites:
     def advise(self, query: AdviceQuery) -> Advice:
         self.advised.append(query)
         labels = [label_of(text) for text in query.preconditions]
+        advice = self._advice(labels, query)
+        return self._with_places(advice, labels, query) if query.places else advice
+
+    def _advice(self, labels: Sequence[str], query: AdviceQuery) -> Advice:
         here = point_of(query.start)
         least = [min(math.dist(here, point) for point in self.points[label]) for label in labels]
         candidates = tuple(
@@ -92,14 +97,34 @@ class Sites:
         orders: Iterator[tuple[int, ...]] = iter([tuple(range(len(labels)))])
         if query.purpose == Purpose.SHORTEST_TOUR:
             orders = itertools.permutations(range(len(labels)))
-        first = 1 if self.careless and not query.effort else None
         best = min(
-            (*shortest_way(here, [self.points[labels[i]][:first] for i in way]), way)
+            (*shortest_way(here, [self._known(labels[i], query) for i in way]), way)
             for way in orders
             if all(way.index(a) < way.index(b) for a, b in query.precedences)
         )
         ends = dict(zip(best[2], best[1], strict=True))
         return Advice(candidates, best[2], ends=tuple(ends[i] for i in range(len(labels))))
+
+    def _known(self, label: str, query: AdviceQuery) -> Sequence[Point]:
+        """The points of a label that advice knows."""
+        return self.points[label][: 1 if self.careless and not query.effort else None]
+
+    def _with_places(self, advice: Advice, labels: Sequence[str], query: AdviceQuery) -> Advice:
+        """Advice with the points of each label as places, known ends first, and straight ways between them."""
+        places = []
+        for index, label in enumerate(labels):
+            points = () if label in self.shut else self._known(label, query)
+            end = query.ends[index] if query.ends else None
+            known = points if end is None else (point_of(end), *points)
+            places += [(index, point) for point in list(dict.fromkeys(known))[: query.places]]
+        rows = [(None, point_of(query.start)), *places]
+        lengths = [
+            math.inf if one == other else math.dist(here, there)
+            for one, here in rows
+            for other, there in places
+        ]
+        told = tuple(Place(index, point) for index, point in places)
+        return replace(advice, places=told, place_lengths=tuple(lengths))
 
     def _met(self, labels: Sequence[str], motions: Sequence[Answer]) -> Iterator[Opportunity]:
         for number, motion in enumerate(motions):
