@@ -23,6 +23,8 @@ from task_planner_node.oracle import (
 )
 
 Point = tuple[float, float]
+# A length, and the points and the indices of stops on the way.
+Way = tuple[float, tuple[Point, ...], tuple[int, ...]]
 
 
 @dataclass
@@ -94,16 +96,12 @@ class Sites:
             return Advice(candidates, order, opportunities=tuple(self._met(labels, query.motions)))
         if query.purpose == Purpose.NEAREST_FIRST:
             return Advice(candidates, order)
-        orders: Iterator[tuple[int, ...]] = iter([tuple(range(len(labels)))])
-        if query.purpose == Purpose.SHORTEST_TOUR:
-            orders = itertools.permutations(range(len(labels)))
-        best = min(
-            (*shortest_way(here, [self._known(labels[i], query) for i in way]), way)
-            for way in orders
-            if all(way.index(a) < way.index(b) for a, b in query.precedences)
-        )
-        ends = dict(zip(best[2], best[1], strict=True))
-        return Advice(candidates, best[2], ends=tuple(ends[i] for i in range(len(labels))))
+        pairs = query.precedences
+        if query.purpose == Purpose.FIXED_ORDER:
+            pairs = tuple(itertools.pairwise(range(len(labels))))
+        way, points = shortest_tour(here, [self._known(label, query) for label in labels], pairs)
+        ends = dict(zip(way, points, strict=True))
+        return Advice(candidates, way, ends=tuple(ends[i] for i in range(len(labels))))
 
     def _known(self, label: str, query: AdviceQuery) -> Sequence[Point]:
         """The points of a label that advice knows."""
@@ -166,3 +164,25 @@ def shortest_way(here: Point, stops: Sequence[Sequence[Point]]) -> tuple[float, 
             for point in points
         }
     return min(ways.values())
+
+
+def shortest_tour(
+    here: Point, stops: Sequence[Sequence[Point]], pairs: Sequence[tuple[int, int]]
+) -> tuple[tuple[int, ...], tuple[Point, ...]]:
+    """The shortest way through one point of each of the stops, the first of each pair before the other one.
+
+    It is told by the indices of the stops and the points, both in the order of the way.
+    """
+    tours: dict[tuple[frozenset[int], Point], Way] = {(frozenset(), here): (0.0, (), ())}
+    for _ in stops:
+        longer: dict[tuple[frozenset[int], Point], Way] = {}
+        for (done, last), (length, points, way) in tours.items():
+            waiting = {later for first, later in pairs if first not in done}
+            for index in set(range(len(stops))) - done - waiting:
+                for point in stops[index]:
+                    tour = (length + math.dist(last, point), (*points, point), (*way, index))
+                    key = (done | {index}, point)
+                    longer[key] = min(longer.get(key, tour), tour)
+        tours = longer
+    _, points, way = min(tours.values())
+    return way, points

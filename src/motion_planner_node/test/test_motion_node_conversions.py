@@ -23,11 +23,13 @@ from motion_planner_node.node import MotionPlannerNode
 from motion_planner_node.planner import MotionPlanner
 from motion_planner_node.requests import (
     AdviceAnswer,
+    AdviceRequest,
     Attempt,
     CandidateAdvice,
     GeometricAnswer,
     GeometricRequest,
     Opportunity,
+    Place,
     Residual,
 )
 from motion_planner_node.robots.motion import Attitude, Motion, Segment
@@ -146,6 +148,50 @@ def test_what_a_tour_needs_arrives_and_its_answer_is_told() -> None:
     assert (sent.ends[0].x, sent.tour_length) == (1.0, 7.0)
     told = sent.opportunities[0]
     assert (told.candidate, told.motion, told.distance, told.end.y) == (1, 0, 1.5, 2.0)
+
+
+places = st.builds(
+    Place,
+    st.integers(0, 2**32 - 1),
+    st.sampled_from(['rover0', 'r']),
+    st.builds(Attitude, *[st.floats(allow_nan=False, allow_infinity=False)] * 3),
+)
+
+
+@given(st.lists(places, max_size=4), st.data())
+def test_places_and_what_lies_between_are_told(told: list[Place], data: st.DataObject) -> None:
+    size = (len(told) + 1) * len(told)
+    lengths = data.draw(st.lists(st.floats(0.0), min_size=size, max_size=size))
+    answer = AdviceAnswer((), (), places=tuple(told), place_lengths=tuple(lengths))
+    sent = conversions.advice_to_msg(answer, msg.AdviceRequest(), 0.0)
+    assert list(sent.place_candidates) == [place.candidate for place in told]
+    assert [(state.agent, state.x, state.y, state.heading) for state in sent.places] == [
+        (place.agent, place.attitude.x, place.attitude.y, place.attitude.heading) for place in told
+    ]
+    assert list(sent.place_lengths) == lengths
+
+
+def test_a_request_for_advice_arrives_as_it_was_sent() -> None:
+    end = msg.AgentState(agent='r', x=1.0, y=2.0, heading=0.5)
+    same = {'seed': 2**64 - 1, 'purpose': 2, 'effort': 5, 'places': 2**32 - 1}
+    sent = msg.AdviceRequest(
+        world_revision='abc',
+        request_id='id',
+        pairwise=True,
+        preconditions=['a', 'b'],
+        start=[end],
+        before=[1],
+        after=[0],
+        ends=[end, end],
+        motions=[msg.Motion(agent='r', start=end, segments=[msg.Segment(length=2.0)])],
+        **same,
+    )
+    request = conversions.advice_request_from_msg(sent)
+    assert {name: getattr(request, name) for name in same} == same
+    # Whatever is added to requests has to be sent here as well.
+    empty = AdviceRequest((), {})
+    names = [item.name for item in fields(AdviceRequest)]
+    assert [name for name in names if getattr(request, name) == getattr(empty, name)] == []
 
 
 def test_a_preferred_end_arrives_and_one_that_is_not_finite_is_named() -> None:

@@ -162,6 +162,35 @@ def test_advice_on_nonsense_is_answered_with_its_cause(rover: Asker) -> None:
     assert list(advice.order) == [1, 0]
 
 
+def test_places_and_what_lies_between_come_through(rover: Asker) -> None:
+    texts = [PHOTO.format('location1'), PHOTO.format('location5')]
+    reached = rover.satisfy(texts[1])
+    (end,) = reached.end
+    rover.events.clear()
+    advice = rover.advise(*texts, places=4, ends=[msg.AgentState(), end])
+    owner = list(advice.place_candidates)
+    of = [[n for n, candidate in enumerate(owner) if candidate == k] for k in (0, 1)]
+    assert all(1 <= len(numbers) <= 4 for numbers in of)
+    assert sum(map(len, of)) == len(advice.places)
+    assert {state.agent for state in advice.places} == {'rover0'}
+    assert advice.places[of[1][0]] == end
+    count = len(owner)
+    rows = [advice.place_lengths[k : k + count] for k in range(0, (count + 1) * count, count)]
+    assert len(advice.place_lengths) == (count + 1) * count
+    for row, own in zip(rows, [None, *owner], strict=True):
+        assert [length < inf for length in row] == [other != own for other in owner]
+    for number in of[0]:
+        place = advice.places[number]
+        answer = rover.satisfy(texts[0], preferred_end=[place])
+        assert (answer.end[0].x, answer.end[0].y) == pytest.approx((place.x, place.y), abs=1e-6)
+    rover.spin_until(lambda: bool(rover.events))
+    told = next(event for event in rover.events if event.kind == msg.PlanningEvent.ADVICE)
+    assert (told.advice_request[0].places, told.advice_answer[0]) == (4, advice)
+    refused = rover.advise(*texts, places=4, ends=[msg.AgentState(agent='ghost')] * 2)
+    assert refused.code == msg.GeometricAnswer.UNKNOWN_AGENT
+    assert rover.advise(*texts, ends=[end]).places == []
+
+
 def test_a_heading_beyond_a_turn_is_wrapped(rover: Asker) -> None:
     start = msg.AgentState(agent='rover0', x=20.0, y=20.0, heading=7.0)
     answer = rover.satisfy(PHOTO.format('location1'), start=[start])

@@ -18,6 +18,7 @@ from motion_planner_node.satisfaction import (
     Room,
     branch_and_prune,
     compile_program,
+    conflicts,
     descend,
     destinations,
     unsolved,
@@ -84,6 +85,16 @@ def test_no_constraint_of_a_conflict_can_be_left_out(name: str) -> None:
         others = [text for text in conflict if text != left_out]
         assert program(*others).contradiction(BOUNDS) is None
         assert len(destinations(program(*others), START, BOUNDS, np.random.default_rng(0), 4))
+
+
+@pytest.mark.parametrize('name', IMPOSSIBLE)
+def test_boxes_before_descents_change_no_explanation(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sentence = program(*IMPOSSIBLE[name]).contradiction(BOUNDS)
+    monkeypatch.setattr(conflicts, '_FEW', 0)
+    assert sentence is not None
+    assert program(*IMPOSSIBLE[name]).contradiction(BOUNDS) == sentence
 
 
 def test_a_conflict_of_distances_says_how_far_apart_the_places_are() -> None:

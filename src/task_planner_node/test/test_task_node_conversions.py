@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from math import pi
+from dataclasses import fields
+from math import inf, pi
 
 import pytest
 from geohtn_msgs.msg import (
@@ -14,6 +15,8 @@ from geohtn_msgs.msg import (
     Motion,
     Opportunity,
 )
+from hypothesis import given
+from hypothesis import strategies as st
 
 from task_planner_node.conversions import (
     advice_from_message,
@@ -23,7 +26,7 @@ from task_planner_node.conversions import (
     statistics_to_message,
     token_from_states,
 )
-from task_planner_node.oracle import AdviceQuery, Purpose
+from task_planner_node.oracle import Advice, AdviceQuery, Place, Purpose
 from task_planner_node.parameters import Parameters, read_guidance, read_parameters
 from task_planner_node.search.statistics import Statistics
 
@@ -67,6 +70,7 @@ def test_everything_that_is_asked_is_in_the_request() -> None:
         (token_from_states([HERE]), None),
         3,
         (answer_from_message(found([HERE])),),
+        8,
     )
     message = advice_to_message(query)
     assert (message.start, message.preconditions) == ([HERE, OTHER], ['((a))', '((b))'])
@@ -74,6 +78,11 @@ def test_everything_that_is_asked_is_in_the_request() -> None:
     assert (list(message.before), list(message.after)) == ([0], [1])
     assert [end.agent for end in message.ends] == ['rover0', '']
     assert [motion.agent for motion in message.motions] == ['rover0']
+    assert message.places == 8
+    # Whatever is added to queries has to be asked here as well.
+    empty = AdviceQuery((), ())
+    names = [item.name for item in fields(AdviceQuery)]
+    assert [name for name in names if getattr(query, name) == getattr(empty, name)] == []
 
 
 def test_everything_that_is_advised_arrives() -> None:
@@ -89,6 +98,35 @@ def test_everything_that_is_advised_arrives() -> None:
     (opportunity,) = advice.opportunities
     assert (opportunity.candidate, opportunity.motion, opportunity.distance) == (1, 2, 5.0)
     assert states_from_token(opportunity.end) == [HERE]
+
+
+states = st.builds(
+    lambda agent, *numbers: AgentState(
+        agent=agent, **dict(zip(('x', 'y', 'heading'), numbers, strict=True))
+    ),
+    st.sampled_from(['rover0', 'rover1']),
+    *[st.floats(allow_nan=False, allow_infinity=False)] * 3,
+)
+
+
+@given(st.lists(st.tuples(st.integers(0, 2**32 - 1), states), max_size=4), st.data())
+def test_places_and_what_lies_between_arrive(
+    told: list[tuple[int, AgentState]], data: st.DataObject
+) -> None:
+    size = (len(told) + 1) * len(told)
+    lengths = data.draw(st.lists(st.floats(0.0) | st.just(inf), min_size=size, max_size=size))
+    message = AdviceAnswer(
+        places=[state for _, state in told],
+        place_candidates=[candidate for candidate, _ in told],
+        place_lengths=lengths,
+    )
+    advice = advice_from_message(message)
+    assert advice.places == tuple(
+        Place(candidate, ((state.agent, state.x, state.y, state.heading),))
+        for candidate, state in told
+    )
+    assert advice.place_lengths == tuple(lengths)
+    assert advice_from_message(AdviceAnswer()) == Advice((), ())
 
 
 def test_better_plans_are_counted_in_the_statistics() -> None:

@@ -95,7 +95,16 @@ class Advisor:
         if request.purpose in TOURS:
             answer = with_tour(answer, request, driven, should_stop)
         if request.places:
-            answer = with_places(answer, request, driven, should_stop)
+            movers = [self._mover(text) for text in request.preconditions]
+            answer = with_places(
+                answer,
+                request,
+                driven,
+                movers,
+                state,
+                lambda mover: self._ground_of(self._world.robots[mover]),
+                should_stop,
+            )
         if not request.pairwise:
             return answer
         bounds, estimates = pairwise.matrices(candidates, driven, should_stop)
@@ -104,6 +113,14 @@ class Advisor:
             pairwise_lower_bounds=tuple(bounds.ravel().tolist()),
             pairwise_estimates=tuple(estimates.ravel().tolist()),
         )
+
+    def _mover(self, text: str) -> str:
+        """The robot that meets a text, empty where none does."""
+        try:
+            agents = self._texts.parsed(text).agents
+        except MotionPlannerError:
+            return ''
+        return agents[0] if agents else ''
 
     def _along_motions(
         self, request: AdviceRequest, state: GeometricState, should_stop: ShouldStop

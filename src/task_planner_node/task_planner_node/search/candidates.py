@@ -128,17 +128,23 @@ class Candidates:
             there = position if tour is where.tour else _on_tour(position, tour)
             yield _choosing(there, Chosen(*candidates[index], focus=True))
 
-    def bindings(self, where: Whereabouts, found: Bindings) -> Bindings:
-        """Ways to decompose a task, those with the nearest first motions first, unless the text sorts them."""
+    def bindings(self, position: Position, found: Bindings) -> tuple[Position, Bindings]:
+        """Ways to decompose a task, the best ones first, unless the text sorts them; and where to go on from.
+
+        The best ones are those that the tour meets, or else those with the nearest first motions.
+        """
         if not (self._domain.geometric and self._limits.use_advice):
-            return found
+            return position, found
         first = [(branch, frame.copy()) for branch, frame in islice(found, MOST_ORDERED)]
         if len(first) < 2 or any(branch.sorted for branch, _ in first):
-            return chain(first, found)
+            return position, chain(first, found)
+        position = self.on_tour(position)
+        where = position[1]
         requests = [
             self._leading(where, branch.grow(frame.copy(), None, None)) for branch, frame in first
         ]
-        return chain([first[i] for i in self._best_bindings(where, requests)], found)
+        ordered = [first[i] for i in self._best_bindings(where, requests)]
+        return position, chain(ordered, found)
 
     def _is_too_long(self, position: Position) -> bool:
         """Whether no better plan than those known can come of a position, as far as advice tells."""
@@ -197,7 +203,8 @@ class Candidates:
         if tour is not None and (tour.tour.lasting or tour.tour.complete):
             places = [tour.stop(r.text) if r is not None else None for r in requests]
             if any(place is not None for place in places):
-                return _sorted(places)
+                # What the tour does not meet comes last.
+                return sorted(range(len(places)), key=lambda i: (places[i] is None, places[i] or 0))
         texts = [request.text for request in requests if request is not None]
         if not texts:
             return range(len(requests))

@@ -146,6 +146,8 @@ def expected_lengths(
     known = tuple([ends.get(text) for text in texts]) if ends else ()
     query = AdviceQuery(where.start, tuple(asked), places=PLACES, ends=known)
     advice = geometry.advise(query, where.lineage)
-    if not advice.places:
+    count = len(advice.places)
+    numbered = all(0 <= place.candidate < len(texts) for place in advice.places)
+    if not count or not numbered or len(advice.place_lengths) != (count + 1) * count:
         return None
     return Lengths(texts, advice, [index for index, text in enumerate(texts) if text in unknown])

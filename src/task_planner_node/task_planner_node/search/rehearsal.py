@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 
-from task_planner_node.errors import MissionError
+from task_planner_node.errors import MissionError, TermRefused
 from task_planner_node.language.model import TaskNetwork
 from task_planner_node.oracle import (
     Advice,
@@ -170,7 +170,8 @@ class Rehearsal:
         mark = self.state.mark()
         try:
             search.run(self.start, following)
-        except (TooLong, MissionError):
+        except (TooLong, MissionError, TermRefused, RecursionError):
+            # What is wrong is told when the search itself comes to it.
             return None
         finally:
             self.state.undo(mark)

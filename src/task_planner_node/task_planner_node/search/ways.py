@@ -225,7 +225,8 @@ class Ways:
         self, position: Position, cell: Cell, path: Path, focus: bool, begun: _Begun
     ) -> Moves:
         """The solutions from the one on that was begun."""
-        for branch, frame in self._candidates.bindings(position[1], self._bindings(cell, begun)):
+        position, found = self._candidates.bindings(position, self._bindings(cell, begun))
+        for branch, frame in found:
             yield self._grow(position, cell, path, focus, branch, frame)
 
     def _bindings(self, cell: Cell, begun: _Begun) -> Bindings:
