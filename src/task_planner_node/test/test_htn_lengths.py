@@ -96,9 +96,3 @@ def test_lengths_are_the_shortest_over_all_choices_of_places(
     assert [lengths.expected(order) for order in orders] == expected
     numbered = np.array([lengths.numbered(order) for order in orders]).reshape(len(orders), count)
     assert lengths.of(numbered).tolist() == expected
-    for order, numbers, length in zip(orders, numbered.tolist(), expected, strict=True):
-        places = lengths.places(numbers)
-        for text, place in zip(order, places, strict=True):
-            choices = world.choices(text, narrow)
-            assert place in choices if choices else place is None
-        assert world.length([place for place in places if isinstance(place, int)]) == length

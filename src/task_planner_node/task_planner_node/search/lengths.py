@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +20,7 @@ PLACES = 8
 
 
 class Lengths:
-    """Expected lengths [m] of sequences of texts, and where to meet each, by the places that advice tells.
+    """Expected lengths [m] of sequences of texts, by the places that advice tells.
 
     Each robot has a way of its own: through places in the order of its texts, each way the shortest one over the
     places of the texts between.  Texts without a place are left out: where they are met is not known yet.
@@ -44,7 +43,6 @@ class Lengths:
         self._between = lengths[1:][numbers[:, :, None, None], numbers[None, None]].transpose(
             0, 2, 1, 3
         )
-        self._places = [[advice.places[number].attitude for number in row] for row in rows]
         # Driving from a place of a text to another one of the same text: nobody has to.
         same = np.where(np.eye(widest, dtype=np.bool_), 0.0, np.inf)
         for index in range(len(known)):
@@ -96,26 +94,6 @@ class Lengths:
             reached[on] = ways.min(axis=1)
             before[own] = column[own]
         return np.asarray(np.where(before < 0, 0.0, reached.min(axis=1)))
-
-    def places(self, sequence: Sequence[int]) -> list[Token | None]:
-        """The places of the shortest way through a sequence of indices, None for negative ones."""
-        chosen: list[Token | None] = [None] * len(sequence)
-        for robot in range(int(self._robots.max(initial=-1)) + 1):
-            stops = [k for k, i in enumerate(sequence) if i >= 0 and self._robots[i] == robot]
-            if not stops:
-                continue
-            tables = [self._first[sequence[stops[0]]]]
-            for one, other in pairwise(stops):
-                ways = tables[-1][:, None] + self._between[sequence[one], sequence[other]]
-                tables.append(ways.min(axis=0))
-            at = int(tables[-1].argmin())
-            for number in range(len(stops) - 1, -1, -1):
-                index = sequence[stops[number]]
-                chosen[stops[number]] = self._places[index][at]
-                if number:
-                    onward = self._between[sequence[stops[number - 1]], index][:, at]
-                    at = int((tables[number - 1] + onward).argmin())
-        return chosen
 
 
 def _grouped(together: NDArray[np.bool_]) -> NDArray[np.intp]:

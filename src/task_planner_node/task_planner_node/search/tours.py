@@ -26,10 +26,9 @@ class Tour:
     """Stops in their order, each of which may come up several times.
 
     ``purposes`` has the indices, ascending, of the stops that are made for a task, or for all that is left to do of a
-    branch, by the key of that network; ``origins`` has those for a task by
-    what it came from too (origin_of).  A ``lasting``
-    tour is followed as far as that goes, any other one is given up once the search leaves it.  A ``complete`` one was
-    rehearsed: it has all motions up to the end of the mission, or up to where an attitude is assigned.
+    branch, by the key of that network; ``origins`` has those for a task by what it came from too (origin_of).  A
+    ``lasting`` tour is followed as far as that goes, any other one is given up once the search leaves it.  A ``complete``
+    one was rehearsed: it has all motions up to the end of the mission, or up to where an attitude is assigned.
     """
 
     def __init__(
