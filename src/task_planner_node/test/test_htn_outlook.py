@@ -7,6 +7,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from random import Random
 
 import pytest
 from hypothesis import given, settings
@@ -122,7 +123,7 @@ class Unaware(Sites):
         return replace(super().advise(query), opportunities=())
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(missions())
 def test_plans_are_short_and_nothing_is_asked_for_in_vain(plan: Planned, mission: Mission) -> None:
     """Of 6500 random missions 99 % had the shortest plan, and none one that was longer by more than 16 %."""
@@ -141,6 +142,26 @@ def test_plans_are_short_and_nothing_is_asked_for_in_vain(plan: Planned, mission
     assert again.steps == result.steps
 
 
+def random_mission(seed: int) -> Mission:
+    """Four goals and two compartments."""
+    random = Random(seed)
+    samples = random.randint(1, 4)
+    labels = ['base', 'target', *'abcd']
+    ends = [(random.uniform(-9, 9), random.uniform(-9, 9)) for _ in range(2 * len(labels))]
+    points = dict(zip(labels, itertools.pairwise(ends[::2] + ends[1::2]), strict=False))
+    return Mission('abcd'[:samples], 'abcd'[samples:], 2, points)
+
+
+def test_most_plans_are_the_shortest_ones(plan: Planned) -> None:
+    missions = [random_mission(seed) for seed in range(16)]
+    results = [plan(DOMAIN, mission.text, Unaware(mission.points)) for mission in missions]
+    longer = [
+        result.plans[0].length / mission.shortest() - 1
+        for result, mission in zip(results, missions, strict=True)
+    ]
+    assert sum(share < 1e-9 for share in longer) >= 15
+
+
 def shortest(here: Point, groups: Sequence[Sequence[str]], points: Mapping[str, Points]) -> float:
     """The length of the shortest way to all of one group after the other."""
     orders = itertools.product(*[itertools.permutations(group) for group in groups])
@@ -149,7 +170,9 @@ def shortest(here: Point, groups: Sequence[Sequence[str]], points: Mapping[str, 
 
 
 maps = st.fixed_dictionaries(dict.fromkeys('abcd', choices))
-groupings = st.sampled_from([list('abcd'), ['abcd'], ['ab', 'cd'], ['abc', 'd'], ['ab', 'c', 'd']])
+groupings = st.sampled_from(
+    [list('abcd'), ['abcd'], ['ab', 'cd'], ['abc', 'd'], ['ab', 'c', 'd'], ['a', 'b', 'cd']]
+)
 
 
 def test_a_motion_of_an_ordered_mission_ends_with_regard_to_the_next_one(plan: Planned) -> None:
@@ -244,12 +267,24 @@ def without_ends(advice: Advice) -> Advice:
     return replace(advice, ends=())
 
 
+def test_impossible_alternatives_are_not_toured(plan: Planned) -> None:
+    points = {'a': ((9.0, 9.0),), 'b': ((1.0, 0.0),), 'c': ((9.0, 0.0),), 'd': ((2.0, 0.0),)}
+    domain = """(defdomain d ((Operator (!visit ?p) () ((near ?p)) ())
+    (:method (see-any ?k) ((of ?k ?p)) ((!visit ?p)))))"""
+    facts = '(of one a)(of one b)(of two c)(of two d)'
+    text = f'(defproblem p d ({facts}) ((:unordered (see-any one) (see-any two))))'
+    world = Sites(points, shut=frozenset('ac'))
+    result = plan(domain, text, world)
+    assert (result.plans[0].length, len(world.queries)) == (2.0, 2)
+    assert result.statistics.backtracks == 0
+
+
 def nothing(_advice: Advice) -> Advice:
     return Advice((), ())
 
 
 @pytest.mark.parametrize('changed', [without_places, with_few_lengths, without_ends, nothing])
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=5, deadline=None)
 @given(missions())
 def test_little_advice_leads_to_plans_too(
     plan: Planned, changed: Callable[[Advice], Advice], mission: Mission
@@ -261,7 +296,6 @@ def test_little_advice_leads_to_plans_too(
     result = plan(DOMAIN, mission.text, Terse(mission.points))
     assert result.outcome == Outcome.SOLVED
     assert sorted(set(seen(result)) - {'base', 'target'}) == [*mission.samples, *mission.images]
-    assert result.plans[0].length >= 0.9 * mission.shortest()
 
 
 @settings(max_examples=10, deadline=None)

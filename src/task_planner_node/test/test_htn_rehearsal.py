@@ -44,8 +44,9 @@ def rehearsal(tasks: str, facts: str = '', world: Sites | None = None) -> Rehear
     state = State(mission.domain.plan, [(fact.name, *fact.args) for fact in problem.facts])
     geometry = Geometry(world, Statistics(), 4, lambda: None)
     beginning = mission.domain.beginning(problem)
+    start = (0.0, 0.0)
     return Rehearsal(
-        mission.domain, beginning, problem.tasks, state, geometry, lambda: None, (0.0, 0.0)
+        mission.domain, beginning, problem.tasks, state, geometry, lambda: None, start, start
     )
 
 
@@ -150,6 +151,13 @@ def test_what_is_proven_impossible_everywhere_is_not_granted() -> None:
 
     rehearsed = rehearsal('(:unordered (look) (!visit a))', '(target s) (target t)', Shut({}))
     assert labels(rehearsed.along()) == ['s', 'a']
+    rehearsed.known.advise(AdviceQuery((0.0, 0.0), ('((near s))',)), (0.0, 0.0))
+    assert labels(rehearsed.along()) == ['t', 'a']
+
+
+def test_what_is_shut_from_where_robots_were_put_is_not_granted() -> None:
+    shut = Sites({'s': ((1.0, 0.0),)}, shut=frozenset('s'))
+    rehearsed = rehearsal('(:unordered (look) (!visit a))', '(target s) (target t)', shut)
     rehearsed.known.advise(AdviceQuery((0.0, 0.0), ('((near s))',)), (0.0, 0.0))
     assert labels(rehearsed.along()) == ['t', 'a']
 

@@ -95,6 +95,7 @@ class Anytime:
                 self._geometry,
                 self._check,
                 start,
+                start,
             ),
         )
         improvement.once()

@@ -81,9 +81,10 @@ class Candidates:
         return chosen if network[0].urgent == 1 else self._in_order(position, chosen, first=True)
 
     def on_tour(self, position: Position) -> Position:
-        """A position with the tour to follow, also where all is ordered: where to end, it tells too."""
+        """A position with the tour to follow, also where there is one task to go on with: where to end, it tells too."""
         network, where = position[:2]
-        if self._outlook is None or where.tour is not None or not _is_ordered(network):
+        choice = network is None or isinstance(network[0], Parallel)
+        if self._outlook is None or where.tour is not None or choice:
             return position
         tour = self._outlook.tour(position, self._search.log)
         return position if tour is None else _on_tour(position, Following(tour))
@@ -217,16 +218,6 @@ class Candidates:
             methods = self._domain.methods.get(task[0], ())
             return [method for method in methods if method.bind(task) is not None]
         return self._domain.methods_for(task)
-
-
-def _is_ordered(network: Network) -> bool:
-    """Whether tasks come one after the other."""
-    part: Any = network
-    while part is not None:
-        if isinstance(part[0], Parallel):
-            return False
-        part = part[1]
-    return True
 
 
 def _front(network: Network) -> tuple[Cell, Path]:

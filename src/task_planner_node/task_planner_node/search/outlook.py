@@ -82,6 +82,7 @@ class Outlook:
             self._geometry,
             self._check,
             position[1].start,
+            position[1].lineage,
             tuple(done),
         )
 
@@ -117,7 +118,14 @@ class Outlook:
         lengths = None
         if len(first.texts) <= MOST_ARRANGED and self._searches < MOST_SEARCHES:
             self._searches += 1
+            version = self._geometry.version
             lengths = expected_lengths(self._geometry, where, first, rehearsal.alternatives, {})
+            if self._geometry.version != version:
+                # Something is impossible.
+                again = rehearsal.along()
+                if again is None:
+                    return None
+                found = first = again
         if lengths is not None:
             nearest = rehearsal.nearest_first(lengths.apart)
             starts = [first] if nearest is None else [first, nearest]
@@ -128,9 +136,9 @@ class Outlook:
             found = rehearsal.along(first.tour(_without_ends(proposed))) or first
         found = rehearsal.settled(found)
         order = self._toured(found, where, Purpose.FIXED_ORDER)
-        if order is None:
+        if order is None and lengths is None:
             return None
-        ends = dict(order)
+        ends = dict(order or ())
         return found.tour([(index, ends.get(index)) for index in found.first], complete=True)
 
 

@@ -48,16 +48,22 @@ class TooLong(Exception):
 class Granting:
     """An Oracle that grants every motion but those that ``known`` proves impossible.
 
-    Where the robots stand is what was met last.  ``alternatives`` has, for each text of which another one could have
+    Where the robots stand is what was met last, and whether an attitude was assigned since ``lineage``, which was the
+    last one.  ``alternatives`` has, for each text of which another one could have
     been met, all that could.  Where ``apart`` tells how far texts are from one that was met, advice is nearest first.
     """
 
     def __init__(
-        self, known: Geometry, assigning: Collection[str], apart: Apart | None = None
+        self,
+        known: Geometry,
+        assigning: Collection[str],
+        lineage: Token,
+        apart: Apart | None = None,
     ) -> None:
         self.alternatives: dict[str, tuple[str, ...]] = {}
         self._known = known
         self._assigning = assigning
+        self._lineage = lineage
         self._apart = apart
         self._granted = 0
 
@@ -70,10 +76,13 @@ class Granting:
         self._granted += 1
         if self._granted > MOST_GRANTED:
             raise TooLong
-        if self._known.lasting_nogood(query.preconditions, None) is not None:
+        put = isinstance(query.start, tuple) and query.start[2:] == (True,)
+        lineage = None if put else self._lineage
+        if self._known.lasting_nogood(query.preconditions, lineage) is not None:
             return Answer(Status.IMPOSSIBLE)
         assigned = query.action[0] in self._assigning
-        return Answer(Status.FOUND, end=('met', query.preconditions), assigned=assigned)
+        end = ('met', query.preconditions, put or assigned)
+        return Answer(Status.FOUND, end=end, assigned=assigned)
 
     def advise(self, query: AdviceQuery) -> Advice:
         """Oracle.advise."""
@@ -113,8 +122,9 @@ class Rest:
 class Rehearsal:
     """Searches for what is left of a mission from ``start`` on, ``done`` being the log of what led there.
 
-    ``root`` is the network of the problem, None where the plan began with something else; ``check`` raises what ends
-    the mission.  ``alternatives`` are those that the rehearsals came upon (Granting).
+    ``lineage`` is the attitude that was last assigned.  ``root`` is the network of the problem, None where the plan began
+    with something else; ``check`` raises what ends the mission.  ``alternatives`` are those that the rehearsals came
+    upon (Granting).
     """
 
     domain: CompiledDomain
@@ -124,6 +134,7 @@ class Rehearsal:
     known: Geometry
     check: Callable[[], None]
     start: Token
+    lineage: Token
     done: Sequence[Expansion] = ()
     alternatives: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
@@ -132,7 +143,7 @@ class Rehearsal:
 
         None where there is none within limits, as far as a search that looks no further can tell.
         """
-        granting = Granting(self.known, self.domain.may_assign)
+        granting = Granting(self.known, self.domain.may_assign, self.lineage)
         found = self._found(granting, Following(tour))
         for text, others in granting.alternatives.items():
             self.alternatives.setdefault(text, others)
@@ -140,7 +151,7 @@ class Rehearsal:
 
     def nearest_first(self, apart: Apart) -> Itinerary | None:
         """The plan that always goes on with what is nearest."""
-        return self._found(Granting(self.known, self.domain.may_assign, apart), None)
+        return self._found(Granting(self.known, self.domain.may_assign, self.lineage, apart), None)
 
     def _found(self, granting: Granting, following: Following | None) -> Itinerary | None:
         statistics = Statistics()
@@ -183,20 +194,26 @@ class Rehearsal:
     def is_free(self, itinerary: Itinerary) -> bool:
         """Whether the facts seem to leave the order open, and what is met.
 
-        That is whether quite another order can be rehearsed: the last stops first, as far as the task networks allow.
+        That is whether two quite other orders can be rehearsed, as far as the task networks allow them: the last stops
+        first, and every other one first.
         """
+        if self.alternatives:
+            return False
         waiting: dict[int, set[int]] = {}
         for one, other in itinerary.precedences(strict=False):
             waiting.setdefault(other, set()).add(one)
-        left = list(range(len(itinerary.texts)))
-        order: list[int] = []
-        while left:
-            last = next(i for i in reversed(left) if waiting.get(i, set()).isdisjoint(left))
-            left.remove(last)
-            order.append(last)
-        found = self.along(itinerary.tour([(index, None) for index in order]))
-        wanted = tuple([itinerary.texts[index] for index in order])
-        return found is not None and found.texts == wanted and not self.alternatives
+        stops = range(len(itinerary.texts))
+        for wanted in (stops[::-1], [*stops[1::2], *stops[::2]]):
+            left = list(wanted)
+            order: list[int] = []
+            while left:
+                following = next(i for i in left if waiting.get(i, set()).isdisjoint(left))
+                left.remove(following)
+                order.append(following)
+            found = self.along(itinerary.tour([(index, None) for index in order]))
+            if found is None or found.texts != tuple([itinerary.texts[i] for i in order]):
+                return False
+        return not self.alternatives
 
     def settled(self, itinerary: Itinerary) -> Itinerary:
         """The itinerary that comes of its own order, so that a search along that takes nothing back."""
