@@ -12,7 +12,7 @@ from task_planner_node.search.advice import MOST_ADVISED
 from task_planner_node.search.arranging import MOST_ARRANGED, Arranging, moved
 from task_planner_node.search.domain import CompiledDomain
 from task_planner_node.search.geometry import Geometry
-from task_planner_node.search.itinerary import Itinerary, Order
+from task_planner_node.search.itinerary import Itinerary, Order, without_ends
 from task_planner_node.search.lengths import expected_lengths
 from task_planner_node.search.partial_plan import Limits, Whereabouts
 from task_planner_node.search.plans import Plan, Plans
@@ -248,7 +248,7 @@ class Improvement:
             return False
         self._tried.add(proposal)
         if self._rehearsed is not None:
-            came = self._rehearsal.along(itinerary.tour([(index, None) for index, _ in order]))
+            came = self._rehearsal.along(itinerary.tour(without_ends(order)))
             if came is None or came.texts != tuple([stop.text for stop in tour.stops]):
                 return False
         limits = Limits(

@@ -11,7 +11,7 @@ from task_planner_node.language.model import TaskNetwork
 from task_planner_node.oracle import Answer, Opportunity, Token
 from task_planner_node.search.network import Task
 from task_planner_node.search.partial_plan import Expansion, Motion, origin_of
-from task_planner_node.search.precedences import Pair, Precedences
+from task_planner_node.search.precedences import Pair, Precedences, waiting
 from task_planner_node.search.robots import robots_of
 from task_planner_node.search.tours import Stop, Tour
 
@@ -100,17 +100,15 @@ class Itinerary:
     def open(self) -> frozenset[int]:
         """The stops that also depend on where another robot stands, which has to move before."""
         robots = [robots_of(text) for text in self.texts]
-        waiting: dict[int, set[int]] = {}
-        for one, other in self.precedences(strict=True):
-            waiting.setdefault(other, set()).add(one)
+        earlier_ones = waiting(self.precedences(strict=True))
         found = set()
         for index, named in enumerate(robots):
-            agenda, before = list(waiting.get(index, ())), set()
+            agenda, before = list(earlier_ones.get(index, ())), set()
             while agenda and len(named) > 1:
                 earlier = agenda.pop()
                 if earlier not in before:
                     before.add(earlier)
-                    agenda.extend(waiting.get(earlier, ()))
+                    agenda.extend(earlier_ones.get(earlier, ()))
             if any(robots[earlier][:1] and robots[earlier][0] in named[1:] for earlier in before):
                 found.add(index)
         return frozenset(found)
@@ -164,9 +162,7 @@ class Itinerary:
 
         Each opportunity comes with the stop to which its motion leads, and its candidate is one of ``texts``.
         """
-        waiting: dict[int, set[int]] = {}
-        for one, other in self.precedences(strict=True):
-            waiting.setdefault(other, set()).add(one)
+        earlier_ones = waiting(self.precedences(strict=True))
         stops: dict[str, list[int]] = {}
         for index, motion in enumerate(self.motions):
             stops.setdefault(motion.preconditions, []).append(index)
@@ -180,7 +176,7 @@ class Itinerary:
                 if index > leading
                 and index not in taken
                 and run_of.get(index) == run_of.get(leading)
-                and not any(leading <= before < index for before in waiting.get(index, ()))
+                and not any(leading <= before < index for before in earlier_ones.get(index, ()))
             ]
             if later:
                 taken.add(later[0])
@@ -192,6 +188,11 @@ class Itinerary:
             if index not in taken:
                 order.append((index, end))
         return order, len(taken)
+
+
+def without_ends(order: Order) -> Order:
+    """The same stops, wherever they are met."""
+    return [(index, None) for index, _ in order]
 
 
 def _by(place: tuple[float, int, Token]) -> tuple[float, int]:

@@ -10,7 +10,7 @@ from task_planner_node.search.advice import MOST_ADVISED
 from task_planner_node.search.arranging import MOST_ARRANGED, Arranging
 from task_planner_node.search.domain import CompiledDomain, Start
 from task_planner_node.search.geometry import Geometry
-from task_planner_node.search.itinerary import Itinerary, Order
+from task_planner_node.search.itinerary import Itinerary, Order, without_ends
 from task_planner_node.search.lengths import expected_lengths
 from task_planner_node.search.partial_plan import Expansion, Position, Whereabouts
 from task_planner_node.search.precedences import Pair, without
@@ -133,7 +133,7 @@ class Outlook:
             arranging = Arranging(rehearsal.along, lengths, rehearsal.alternatives, seed=0)
             found = arranging.best(found)
         elif proposed is not None:
-            found = rehearsal.along(first.tour(_without_ends(proposed))) or first
+            found = rehearsal.along(first.tour(without_ends(proposed))) or first
         found = rehearsal.settled(found)
         order = self._toured(found, where, Purpose.FIXED_ORDER)
         if order is None and lengths is None:
@@ -142,13 +142,9 @@ class Outlook:
         return found.tour([(index, ends.get(index)) for index in found.first], complete=True)
 
 
-def _without_ends(order: Order) -> Order:
-    return [(index, None) for index, _ in order]
-
-
 def _followed(itinerary: Itinerary, order: Order, rehearsal: Rehearsal) -> Tour | None:
     """The tour in an order of some stops, with all others where they come; None where it cannot be followed."""
-    found = rehearsal.along(itinerary.tour(_without_ends(order)))
+    found = rehearsal.along(itinerary.tour(without_ends(order)))
     if found is None:
         return None
     known = [(index, found.texts[index]) for index in found.first if index not in found.open]

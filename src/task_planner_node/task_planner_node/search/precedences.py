@@ -29,8 +29,8 @@ class Precedences:
     """Pairs of stops, of which the first has to be made before the second.
 
     ``stops`` are the indices of stops by the place of their operator in the plan's ``log``, ``root`` is the network
-    of the problem, if the plan is one for it.  A task that comes up again below itself is no part of an order that is not ``strict``: such a task
-    often stands for what is left to do, in an order that a binding chose.
+    of the problem, if the plan is one for it.  A task that comes up again below itself is no part of an order that is
+    not ``strict``: such a task often stands for what is left to do, in an order that a binding chose.
     """
 
     log: Sequence[Expansion]
@@ -103,6 +103,14 @@ class Precedences:
 
     def _pair(self, before: _Ends, after: _Ends) -> None:
         self.pairs.extend((one, other) for one in before.last for other in after.first)
+
+
+def waiting(pairs: Iterable[Pair]) -> dict[int, set[int]]:
+    """For each stop that has to wait those that ``pairs`` name before it."""
+    found: dict[int, set[int]] = {}
+    for one, other in pairs:
+        found.setdefault(other, set()).add(one)
+    return found
 
 
 def without(left_out: Collection[int], pairs: Iterable[Pair]) -> set[Pair]:

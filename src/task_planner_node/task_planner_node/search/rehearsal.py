@@ -25,6 +25,7 @@ from task_planner_node.search.itinerary import Itinerary
 from task_planner_node.search.network import Network
 from task_planner_node.search.partial_plan import Expansion, Limits
 from task_planner_node.search.plans import Plans
+from task_planner_node.search.precedences import waiting
 from task_planner_node.search.state import State
 from task_planner_node.search.statistics import Statistics
 from task_planner_node.search.tours import Following, Tour
@@ -199,15 +200,13 @@ class Rehearsal:
         """
         if self.alternatives:
             return False
-        waiting: dict[int, set[int]] = {}
-        for one, other in itinerary.precedences(strict=False):
-            waiting.setdefault(other, set()).add(one)
+        earlier = waiting(itinerary.precedences(strict=False))
         stops = range(len(itinerary.texts))
         for wanted in (stops[::-1], [*stops[1::2], *stops[::2]]):
             left = list(wanted)
             order: list[int] = []
             while left:
-                following = next(i for i in left if waiting.get(i, set()).isdisjoint(left))
+                following = next(i for i in left if earlier.get(i, set()).isdisjoint(left))
                 left.remove(following)
                 order.append(following)
             found = self.along(itinerary.tour([(index, None) for index in order]))
