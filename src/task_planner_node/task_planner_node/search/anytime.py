@@ -87,16 +87,7 @@ class Anytime:
             self._plans,
             self._limits,
             follow,
-            Rehearsal(
-                self._domain,
-                self._beginning,
-                root,
-                self.state.initial(),
-                self._geometry,
-                self._check,
-                start,
-                start,
-            ),
+            self._rehearsal(self.state.initial(), start),
         )
         improvement.once()
         if not self._limits.optimise:
@@ -119,13 +110,24 @@ class Anytime:
         """Where the first plan is left."""
         return Plans(limits, self._plans.keep) if self._improves else self._plans
 
+    def _rehearsal(self, state: State, start: Token = ()) -> Rehearsal:
+        """The rehearsal of the whole mission."""
+        return Rehearsal(
+            self._domain,
+            self._beginning,
+            self._root,
+            state,
+            self._geometry,
+            self._check,
+            start,
+            start,
+        )
+
     def _search(self, limits: Limits, plans: Plans) -> Search:
         outlook = None
         toured = limits.use_advice and limits.purpose == Purpose.SHORTEST_TOUR
         if toured and limits.plans == 1 and not limits.optimise:
-            outlook = Outlook(
-                self._domain, self._beginning, self._root, self.state, self._geometry, self._check
-            )
+            outlook = Outlook(self._rehearsal(self.state))
         return Search(
             self._domain,
             self._beginning,

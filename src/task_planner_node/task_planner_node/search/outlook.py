@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
-from task_planner_node.language.model import TaskNetwork
 from task_planner_node.oracle import AdviceQuery, Purpose, Token
 from task_planner_node.search.advice import MOST_ADVISED
 from task_planner_node.search.arranging import MOST_ARRANGED, Arranging
-from task_planner_node.search.domain import CompiledDomain, Start
-from task_planner_node.search.geometry import Geometry
 from task_planner_node.search.itinerary import Itinerary, Order, without_ends
 from task_planner_node.search.lengths import expected_lengths
 from task_planner_node.search.partial_plan import Expansion, Position, Whereabouts
 from task_planner_node.search.precedences import Pair, without
 from task_planner_node.search.rehearsal import Rehearsal, Rest
-from task_planner_node.search.state import State
 from task_planner_node.search.tours import Tour
 
 # How often an order is searched for from positions of one search.
@@ -31,28 +28,17 @@ class Outlook:
     could have met something else, an order is searched for among those that can be rehearsed.
     """
 
-    def __init__(
-        self,
-        domain: CompiledDomain,
-        beginning: Start,
-        root: TaskNetwork | None,
-        state: State,
-        geometry: Geometry,
-        check: Callable[[], None],
-    ) -> None:
-        self._domain = domain
-        self._beginning = beginning
-        self._root = root
-        self._state = state
-        self._geometry = geometry
-        self._check = check
+    def __init__(self, rehearsal: Rehearsal) -> None:
+        """``rehearsal`` is that of the whole mission, with the state of the search."""
+        self._whole = rehearsal
+        self._geometry = rehearsal.known
         self._searches = 0
         self._known: dict[tuple[int, Token, int], Tour | None] = {}
 
     def tour(self, position: Position, done: Sequence[Expansion]) -> Tour | None:
         """The tour from a position, ``done`` being the log up to there; None where none is known."""
         network, where = position[:2]
-        key = (self._state.key, where.start, network[4] if network is not None else 0)
+        key = (self._whole.state.key, where.start, network[4] if network is not None else 0)
         if key not in self._known:
             many = len(self._known) >= MOST_TOURS
             self._known[key] = None if many else self._tour(position, done)
@@ -74,16 +60,14 @@ class Outlook:
         return self._arranged(first, order, rehearsal, where)
 
     def _rehearsal(self, position: Position, done: Sequence[Expansion]) -> Rehearsal:
-        return Rehearsal(
-            self._domain,
-            Rest(position[0], self._beginning),
-            self._root,
-            self._state,
-            self._geometry,
-            self._check,
-            position[1].start,
-            position[1].lineage,
-            tuple(done),
+        network, where = position[:2]
+        return replace(
+            self._whole,
+            beginning=Rest(network, self._whole.beginning),
+            start=where.start,
+            lineage=where.lineage,
+            done=tuple(done),
+            alternatives={},
         )
 
     def _shortest(self, itinerary: Itinerary, where: Whereabouts) -> Order | None:
