@@ -27,6 +27,7 @@ from task_planner_node.search.early import Early
 from task_planner_node.search.methods import CompiledMethod, Grow, Networks, compile_method
 from task_planner_node.search.network import Network, Task
 from task_planner_node.search.operators import CompiledOperator, compile_operator
+from task_planner_node.search.reads import Reads
 from task_planner_node.search.state import IndexPlan, State
 from task_planner_node.search.structure import least_costs, names_above, recursive_names
 from task_planner_node.search.terms import Frame, Slots
@@ -78,6 +79,7 @@ class CompiledDomain:
     operator has geometric preconditions, ``immediate`` whether any task has priority, ``loose`` whether tasks may
     have arguments without a value.  ``recursive`` names the tasks that may come up again below themselves;
     ``may_assign`` those below which an attitude may be set; ``least_costs`` are lower bounds of the cost of tasks by name.
+    ``reads`` tells which facts decide how a task may be done.
     """
 
     def __init__(
@@ -87,6 +89,7 @@ class CompiledDomain:
         self._compiler = compiler = Compiler(linear=linear)
         self._assigning = assigning
         self._early = Early(domain)
+        self.reads = Reads(domain)
         effects = [e for o in domain.operators for e in (*o.deletes, *o.adds)]
         self._protecting = any(isinstance(effect, Protection) for effect in effects_of(effects))
         heads: dict[tuple[str, int], list[Axiom]] = {}

@@ -55,7 +55,7 @@ class Request:
 
 
 def _query(request: Request, alternative: int) -> Query:
-    action = tuple(show(part) for part in request.task)
+    action = tuple(map(show, request.task))
     return Query(
         action, request.text, request.start, alternative, request.behaviour, request.preferred
     )
@@ -104,6 +104,8 @@ class Geometry:
 
     def nogood(self, request: Request) -> Nogood | None:
         """Why a request cannot be met, when that is proven already."""
+        if not self._nogoods:
+            return None
         for text in {request.text: None, request.key: None}:
             found = self.lasting_nogood(text, request.lineage) or self._nogoods.get(
                 (Scope.THIS_START, request.start, text)

@@ -6,9 +6,11 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from task_planner_node.language.model import Atom, Variable
-from task_planner_node.search.terms import Compiled, Frame, Slots, match, slots_of
+from task_planner_node.search.terms import Compiled, Frame, ListPattern, Slots, match, slots_of
 
 Bind = Callable[[tuple[Any, ...]], Frame | None]
+# Binds what an argument has in it; False where it does not fit.
+Take = Callable[[Any, Frame], bool]
 
 
 class Head:
@@ -42,15 +44,62 @@ class Head:
                 return [*task, *tail] if len(task) == size else None
 
             return bind
-        tested = [(i, self.terms[i - 1]) for i in self._tested]
+        seen = set(self._slots.constants())
+        tested: list[tuple[int, Take]] = []
+        for position in self._tested:
+            term = self.terms[position - 1]
+            tested.append((position, _taking(term, seen)))
+            seen |= slots_of(term)
 
         def bind_and_test(task: tuple[Any, ...]) -> Frame | None:
             if len(task) != size:
                 return None
             frame = template.copy()
-            for position, term in tested:
-                if not match(term, task[position], frame, []):
+            for position, take in tested:
+                if not take(task[position], frame):
                     return None
             return frame
 
         return bind_and_test
+
+
+def _taking(term: Compiled, seen: set[int]) -> Take:
+    """How to match an argument; the slots ``seen`` have a value before."""
+    if isinstance(term, int):
+        return _equal(term) if term in seen else _variable(term)
+    if isinstance(term, ListPattern):
+        slots = [*term.items] if term.tail is None else [*term.items, term.tail]
+        if len(slots_of(term) - seen) == len(slots) and all(isinstance(s, int) for s in slots):
+            return _variables(term)
+    return lambda value, frame: match(term, value, frame, [])
+
+
+def _equal(slot: int) -> Take:
+    return lambda value, frame: bool(frame[slot] == value)
+
+
+def _variable(slot: int) -> Take:
+    def take(value: Any, frame: Frame) -> bool:
+        frame[slot] = value
+        return True
+
+    return take
+
+
+def _variables(term: ListPattern) -> Take:
+    """A list of variables that have no value before, each another."""
+    slots: list[Any] = [*term.items]
+    count, tail = len(slots), term.tail
+
+    def take(value: Any, frame: Frame) -> bool:
+        if not isinstance(value, tuple):
+            return match(term, value, frame, [])
+        if len(value) < count or (tail is None and len(value) > count):
+            return False
+        for slot, part in zip(slots, value, strict=False):
+            frame[slot] = part
+        if isinstance(tail, int):
+            frame[tail] = value[count:]
+        return True
+
+    return take

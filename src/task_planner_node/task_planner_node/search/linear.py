@@ -42,17 +42,23 @@ def scanning(look: Look, plan: IndexPlan) -> Scan:
 
 
 def presence(look: Look, plan: IndexPlan) -> Begin:
-    """Whether a fact fits; ``look`` leaves nothing free."""
+    """Whether a fact fits; ``look`` leaves nothing free, or other, unbound variables only."""
     scan = scanning(look, plan)
-    return lambda state, frame: any(True for _ in scan(state, frame))
+
+    def begin(state: State, frame: Frame) -> bool:
+        for _ in scan(state, frame):
+            return True
+        return False
+
+    return begin
 
 
 def absence(look: Look, plan: IndexPlan) -> Begin | None:
     """Whether no fact fits, when its free parts are other, unbound variables; else None."""
     if look.assign() is None:
         return None
-    scan = scanning(look, plan)
-    return lambda state, frame: state.relaxed or not any(True for _ in scan(state, frame))
+    present = presence(look, plan)
+    return lambda state, frame: state.relaxed or not present(state, frame)
 
 
 def enumerating(look: Look, plan: IndexPlan) -> Begin:

@@ -233,18 +233,9 @@ def ground_text(geometric: GeometricText | None, slots: Slots) -> Text | None:
         pieces.append(text[end : occurrence.start()])
         variables.append(slots.variable(occurrence.group()))
         end = occurrence.end()
-    last = text[end:]
-
-    def ground(frame: Frame) -> str:
-        parts: list[str] = []
-        for piece, slot in zip(pieces, variables, strict=True):
-            parts.append(piece)
-            found = frame[slot]
-            parts.append(found if isinstance(found, str) else show(found))
-        parts.append(last)
-        return ''.join(parts)
-
-    return ground
+    pieces.append(text[end:])
+    form = '%s'.join([piece.replace('%', '%%') for piece in pieces])
+    return lambda frame: form % tuple([show(frame[slot]) for slot in variables])
 
 
 def _cost(

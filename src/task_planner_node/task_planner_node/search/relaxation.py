@@ -25,6 +25,7 @@ from task_planner_node.search.unbound import ground
 MOST_BINDINGS = 20_000
 MOST_WORK = 500_000
 MOST_REASONS = 20
+NEVER = -1
 
 
 def prove_dead(
@@ -111,44 +112,56 @@ class _Relaxation:
         self._blocked: dict[Task, Nogood] = {}
         self._lost: dict[str, Task] = {}
         self._decompositions: dict[Task, dict[tuple[Task, ...], None]] = {}
-        self._seen: set[Task] = set()
         self._agenda: list[Task] = []
+        # How many facts that tasks read had been added when a task was looked at, and with the latest of a predicate.
+        self._looked: dict[Task, int] = {}
+        self._latest: dict[str, int] = {}
+        self._added = 0
         self._bindings = 0
 
     def explore(self, tasks: Iterable[Task]) -> None:
         """Apply everything until nothing new appears.
 
         Tasks that appear are looked at in the same pass: a task below many others takes no pass for
-        each of them.
+        each of them.  In later passes a task is looked at again where there are new facts that it reads.
         """
         self._look_at(tasks)
-        changed = True
-        while changed:
-            changed = False
+        before = NEVER
+        while before != self._added:
+            before = self._added
             for task in self._agenda:
-                operator = self._domain.operators.get(task[0])
-                if operator is None:
-                    changed |= self._decompose(task)
-                else:
-                    changed |= self._apply(operator, task)
+                if self._has_news(task):
+                    self._looked[task] = self._added
+                    operator = self._domain.operators.get(task[0])
+                    if operator is None:
+                        self._decompose(task)
+                    else:
+                        self._apply(operator, task)
         self._close()
 
     def _look_at(self, tasks: Iterable[Task]) -> None:
         for task in tasks:
-            if task not in self._seen:
-                self._seen.add(task)
+            if task not in self._looked:
+                self._looked[task] = NEVER
                 self._agenda.append(task)
+
+    def _has_news(self, task: Task) -> bool:
+        """Whether a task was not looked at since facts appeared that it reads."""
+        looked = self._looked[task]
+        if looked == NEVER or looked == self._added:
+            return looked == NEVER
+        names = self._domain.reads.of(task[0])
+        return names is None or any(self._latest.get(name, 0) > looked for name in names)
 
     def _count(self) -> None:
         self._bindings += 1
         if self._bindings > MOST_BINDINGS:
             raise TooMuchWork
 
-    def _apply(self, operator: CompiledOperator, task: Task) -> bool:
+    def _apply(self, operator: CompiledOperator, task: Task) -> None:
         frame = operator.bind(task)
-        changed = False
         if frame is None:
-            return False
+            return
         for _ in operator.condition.solutions(self._state, frame):
             self._count()
             adds = [
@@ -167,12 +180,12 @@ class _Relaxation:
                 self.assigns = self.assigns or operator.assigns
             self._done.add(task)
             for fact in adds:
-                changed |= self._state.add(fact)
-        return changed
+                if self._state.add(fact) and self._domain.reads.matter(fact[0]):
+                    self._added += 1
+                    self._latest[fact[0]] = self._added
 
-    def _decompose(self, task: Task) -> bool:
+    def _decompose(self, task: Task) -> None:
         found = self._decompositions.setdefault(task, {})
-        changed = False
         self._count()
         for method in self._domain.methods.get(task[0], ()):
             frame = method.bind(task)
@@ -187,9 +200,7 @@ class _Relaxation:
                     subtasks = tuple(all_tasks(branch.grow(trial, None, None)))
                     if subtasks not in found:
                         found[subtasks] = None
-                        changed = True
                         self._look_at(subtasks)
-        return changed
 
     def _close(self) -> None:
         """Mark every task as done that has a decomposition into tasks that are."""

@@ -1,0 +1,56 @@
+"""The predicates whose facts decide how a task may be done, told from the text of a domain."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from task_planner_node.language.model import Atom, Condition, Domain, Stated
+from task_planner_node.language.walk import conditions_in, parts_of
+
+
+class Reads:
+    """What the conditions of operators and methods, and of their effects, look at; axioms are followed."""
+
+    def __init__(self, domain: Domain) -> None:
+        conditions: dict[str, list[Condition]] = {}
+        for operator in domain.operators:
+            own = conditions.setdefault(operator.head.name, [])
+            own += (operator.condition, *conditions_in((*operator.deletes, *operator.adds)))
+        for method in domain.methods:
+            own = conditions.setdefault(method.head.name, [])
+            own += (branch.condition for branch in method.branches)
+        self._bodies: dict[str, list[Condition]] = {}
+        for axiom in domain.axioms:
+            self._bodies.setdefault(axiom.head.name, []).extend(axiom.bodies)
+        self._of = {name: self._predicates(own) for name, own in conditions.items()}
+        known = [names for names in self._of.values() if names is not None]
+        self._all = frozenset().union(*known) if len(known) == len(self._of) else None
+
+    def of(self, task: str) -> frozenset[str] | None:
+        """Names of predicates; None where a condition looks at a literal that only the search knows."""
+        return self._of.get(task, frozenset())
+
+    def matter(self, predicate: str) -> bool:
+        """Whether any task may look at the facts of a predicate."""
+        return self._all is None or predicate in self._all
+
+    def _predicates(self, conditions: Iterable[Condition]) -> frozenset[str] | None:
+        names: set[str] = set()
+        agenda = list(conditions)
+        while agenda:
+            for part in _leaves(agenda.pop()):
+                if isinstance(part, Stated):
+                    return None
+                if isinstance(part, Atom) and part.name not in names:
+                    names.add(part.name)
+                    agenda += self._bodies.get(part.name, ())
+        return frozenset(names)
+
+
+def _leaves(condition: Condition) -> Iterator[Condition]:
+    """The parts of a condition that are not made of others."""
+    parts = parts_of(condition)
+    if not parts:
+        yield condition
+    for part in parts:
+        yield from _leaves(part)
