@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 from task_planner_node.oracle import Purpose
 from task_planner_node.search.advice import Advisor
-from task_planner_node.search.domain import CompiledDomain, Start
+from task_planner_node.search.domain import CompiledDomain, Fit, Start
 from task_planner_node.search.geometry import Geometry, Request
 from task_planner_node.search.guidance import leading_request
 from task_planner_node.search.landmarks import Landmarks
-from task_planner_node.search.methods import CompiledBranch, CompiledMethod
+from task_planner_node.search.methods import CompiledBranch
 from task_planner_node.search.network import (
     Cell,
     Immediate,
@@ -36,7 +36,6 @@ from task_planner_node.search.relaxation import no_definition_fits
 from task_planner_node.search.state import State
 from task_planner_node.search.terms import Frame
 from task_planner_node.search.tours import Following, Tour
-from task_planner_node.search.unbound import ground
 
 if TYPE_CHECKING:
     from task_planner_node.search.engine import Search
@@ -103,12 +102,12 @@ class Candidates:
             task = part[0]
             if task[0] in self._domain.operators:
                 continue
-            fitting = self._fitting(task)
-            if not fitting:
+            fit = self._domain.fit(task)
+            if fit is Fit.NONE:
                 reason = no_definition_fits(task, primitive=False)
                 self._search.dead_ends.add(task, 'head', reason)
                 return
-            if len(fitting) == 1 and fitting[0].unconditional:
+            if fit is Fit.CERTAIN:
                 # What it decomposes into depends on nothing that another task could change.
                 yield _choosing(position, Chosen(part, path, focus=False))
                 return
@@ -212,12 +211,6 @@ class Candidates:
         stops = self._advisor.order(Purpose.NEAREST_FIRST, where, texts, ask=True)
         ranks = {text: place for place, text in enumerate(stops)}
         return _sorted([ranks.get(r.text) if r is not None else None for r in requests])
-
-    def _fitting(self, task: Task) -> list[CompiledMethod]:
-        if not self._domain.loose or ground(task):
-            methods = self._domain.methods.get(task[0], ())
-            return [method for method in methods if method.bind(task) is not None]
-        return self._domain.methods_for(task)
 
 
 def _front(network: Network) -> tuple[Cell, Path]:

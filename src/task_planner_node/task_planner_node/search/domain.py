@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from enum import Enum, auto
 from typing import Protocol
 
 from task_planner_node.errors import Diagnostic
@@ -31,7 +32,10 @@ from task_planner_node.search.reads import Reads
 from task_planner_node.search.state import IndexPlan, State
 from task_planner_node.search.structure import least_costs, names_above, recursive_names
 from task_planner_node.search.terms import Frame, Slots
-from task_planner_node.search.unbound import known
+from task_planner_node.search.unbound import ground, known
+
+# Tasks of which it is remembered which methods fit.
+MOST_KNOWN = 100_000
 
 
 class Start(Protocol):
@@ -70,6 +74,14 @@ class Beginning:
     def unmet(self, state: State) -> str:
         """The first part of the goal that does not hold."""
         return self.goal.first_failure(state, self.goal_template)
+
+
+class Fit(Enum):
+    """The methods whose head fits a task: none, one that decomposes it in one and the same way, or others."""
+
+    NONE = auto()
+    CERTAIN = auto()
+    OPEN = auto()
 
 
 class CompiledDomain:
@@ -111,6 +123,7 @@ class CompiledDomain:
         }
         self._variants: dict[tuple[str, tuple[bool, ...]], CompiledOperator] = {}
         self._method_variants: dict[tuple[str, tuple[bool, ...]], list[CompiledMethod]] = {}
+        self._fits: dict[Task, Fit] = {}
         self.geometric = any(operator.text is not None for operator in self.operators.values())
         self.recursive = recursive_names(self.methods)
         self.may_assign = names_above(self.methods, assigning)
@@ -152,6 +165,18 @@ class CompiledDomain:
             self._method_variants[key] = self._methods(*key)
         return self._method_variants[key]
 
+    def fit(self, task: Task) -> Fit:
+        """Which methods fit a task, whatever the facts are."""
+        if self.loose and not ground(task):
+            return _fit(self.methods_for(task))
+        fit = self._fits.get(task)
+        if fit is None:
+            if len(self._fits) >= MOST_KNOWN:
+                self._fits.clear()
+            methods = self.methods.get(task[0], ())
+            fit = self._fits[task] = _fit([m for m in methods if m.bind(task) is not None])
+        return fit
+
     def place_of(self, operator: str, message: str) -> Diagnostic:
         """An error at the head of an operator."""
         node = self._texts[operator].head.node
@@ -173,6 +198,12 @@ class CompiledDomain:
 
     def _condition(self, condition: Condition, slots: Slots) -> Conjunction:
         return self._compiler.condition(condition, slots, set())
+
+
+def _fit(methods: Sequence[CompiledMethod]) -> Fit:
+    if len(methods) == 1 and methods[0].unconditional:
+        return Fit.CERTAIN
+    return Fit.OPEN if methods else Fit.NONE
 
 
 def _is_immediate(network: TaskNetwork) -> bool:

@@ -151,7 +151,7 @@ def first_cells(network: Network) -> list[tuple[Cell, Path]]:
         first = part[0]
         if isinstance(first, Parallel):
             branches = first.branches
-            agenda.extend((branches[i], (*path, i)) for i in reversed(first.open()))
+            agenda += [(branches[i], (*path, i)) for i in reversed(first.open())]
         else:
             found.append((part, path))
     return found
