@@ -18,7 +18,8 @@ from motion_planner_node.stopping import never
 from motion_planner_node.tours.chains import Groups
 from motion_planner_node.tours.goals import Goal, attitudes
 from motion_planner_node.tours.legs import Legs
-from motion_planner_node.tours.samples import Samples, next_to
+from motion_planner_node.tours.precedences import from_start, next_to
+from motion_planner_node.tours.samples import Samples
 from motion_planner_node.tours.search import MOST_ATTITUDES, Work
 from motion_planner_node.world import Scene
 from motion_planner_node.world.reader import read_world
@@ -41,8 +42,7 @@ def groups_of(photos: int, seed: int) -> Groups:
     row = np.array(START)
     most = min(Work.of(0, photos).attitudes, MOST_ATTITUDES // photos)
     rows = attitudes(goals, ground, row[None, :], part, most, never)
-    before = np.zeros((photos + 1, photos + 1), np.bool_)
-    before[0, 1:] = True
+    before = from_start(np.zeros((photos, photos), np.bool_))
     samples = Samples(ground, Legs(ground, seed, never), row, rows, most, next_to(before), never)
     # Only what is there, without the room for more.
     groups = np.repeat(np.arange(photos + 1), samples.count)

@@ -21,28 +21,17 @@ from motion_planner_node.stopping import never
 from motion_planner_node.tours.chains import Groups, best_chain
 from motion_planner_node.tours.exact import best_tour
 from motion_planner_node.tours.legs import Legs
-from motion_planner_node.tours.samples import Samples, next_to
+from motion_planner_node.tours.precedences import next_to
+from motion_planner_node.tours.samples import Samples
 from motion_planner_node.world import Scene
 from motion_planner_node.world.model import Bounds, Circle, World, WorldObject
+from tests.support.precedences import random_precedences
 
 Mask = NDArray[np.bool_]
 CAR = Robot('r', 8.0, 0.5, 5.0, 2.0)
 ROCK = Circle('rock', (150.0, 150.0), 50.0)
 WORLD = World('', '', Bounds(0.0, 0.0, 300.0, 300.0), {}, (ROCK,), {'r': CAR})
 GROUND = Ground(Scene(WORLD), CAR)
-
-
-def closed(rng: np.random.Generator, goals: int, precedences: int) -> Mask:
-    """Random precedences that agree with an order, and the start before all."""
-    before = np.zeros((goals + 1, goals + 1), np.bool_)
-    before[0, 1:] = True
-    hidden = 1 + rng.permutation(goals)
-    for _ in range(precedences if goals > 1 else 0):
-        i, j = np.sort(rng.choice(goals, 2, replace=False))
-        before[hidden[i], hidden[j]] = True
-    for middle in range(goals + 1):
-        before |= np.outer(before[:, middle], before[middle])
-    return before
 
 
 def free_rows(rng: np.random.Generator, count: int) -> NDArray[np.float64]:
@@ -78,7 +67,7 @@ def best_by_trying(samples: Samples, before: Mask) -> float:
 def test_the_best_tour_is_that_of_the_full_matrix(
     seed: int, goals: int, precedences: int, fixed: bool
 ) -> None:
-    before = closed(np.random.default_rng(seed), goals, precedences)
+    before = random_precedences(np.random.default_rng(seed), goals, precedences)
     if fixed:
         before = np.triu(np.ones_like(before), 1)
     full = sampled(seed, goals, ~np.eye(goals + 1, dtype=np.bool_))

@@ -15,7 +15,8 @@ from motion_planner_node.tours.chains import Groups, best_chain
 from motion_planner_node.tours.exact import any_order, best_tour
 from motion_planner_node.tours.local_search import LocalSearch, best_place
 from motion_planner_node.tours.moves import NONE, best_move, make, neighbours, reversal, tables_of
-from motion_planner_node.tours.samples import next_to
+from motion_planner_node.tours.precedences import from_start, next_to
+from tests.support.precedences import random_precedences
 
 
 def groups_of(
@@ -32,14 +33,7 @@ def groups_of(
     total = int(count.sum())
     costs = rng.uniform(1.0, 100.0, (total, total)).astype(np.float32)
     costs[rng.uniform(size=costs.shape) < blocked] = inf
-    before = np.zeros((goals + 1, goals + 1), np.bool_)
-    before[0, 1:] = True
-    hidden = 1 + rng.permutation(goals)
-    for _ in range(precedences if goals > 1 else 0):
-        i, j = np.sort(rng.choice(goals, 2, replace=False))
-        before[hidden[i], hidden[j]] = True
-    for middle in range(goals + 1):
-        before |= np.outer(before[:, middle], before[middle])
+    before = random_precedences(rng, goals, precedences)
     groups = Groups(costs, first, count, before)
     return thinned(groups) if sparse else groups
 
@@ -201,8 +195,7 @@ def places_of(seed: int, goals: int) -> Groups:
     places = (middles + rng.uniform(-8.0, 8.0, (goals + 1, 3, 2))).reshape(-1, 2)[2:]
     costs = np.hypot(*(places[:, None] - places).transpose(2, 0, 1)).astype(np.float32)
     first = np.concatenate(([0], 1 + 3 * np.arange(goals)))
-    before = np.zeros((goals + 1, goals + 1), np.bool_)
-    before[0, 1:] = True
+    before = from_start(np.zeros((goals, goals), np.bool_))
     return Groups(costs, first, np.array([1] + [3] * goals), before)
 
 

@@ -17,7 +17,8 @@ from motion_planner_node.robots.motion import Attitude, GeometricState
 from motion_planner_node.stopping import ShouldStop
 from motion_planner_node.tours.goals import attitudes
 from motion_planner_node.tours.legs import Legs
-from motion_planner_node.tours.samples import Samples, next_to
+from motion_planner_node.tours.precedences import from_start, next_to
+from motion_planner_node.tours.samples import Samples
 
 #: Attitudes of all candidates together, at most; each that may be met has one at least.
 MOST_PLACES = 512
@@ -62,11 +63,10 @@ def with_places(
             if movers[index] == mover:
                 row = np.array([[end.x, end.y, end.heading]])
                 rows_of[index] = np.concatenate((row, rows_of.get(index, row[:0])))[:most]
-        before = np.zeros((len(rows_of) + 1, len(rows_of) + 1), np.bool_)
-        before[0, 1:] = True
+        adjacent = next_to(from_start(np.zeros((len(rows_of), len(rows_of)), np.bool_)))
         legs = Legs(ground, request.seed, should_stop)
         states = list(rows_of.values())
-        samples = Samples(ground, legs, start, states, most, next_to(before), should_stop)
+        samples = Samples(ground, legs, start, states, most, adjacent, should_stop)
         kept = [0]
         for number, (index, rows) in enumerate(rows_of.items(), 1):
             kept.extend(range(samples.first[number], samples.first[number] + len(rows)))

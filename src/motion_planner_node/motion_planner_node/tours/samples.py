@@ -21,15 +21,6 @@ STEERED = 10
 FIELDS = 48
 
 
-def next_to(before: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Whether a group may come right after another one, (groups, groups), by row and column.
-
-    ``before`` tells which groups have to come before which others, also by way of others.
-    """
-    between = before.astype(np.int64) @ before.astype(np.int64) > 0
-    return np.asarray(~before.T & ~between & ~np.eye(len(before), dtype=np.bool_))
-
-
 class Samples:
     """Group 0 is the start, group g + 1 goal g; see `chains` for what the arrays are.
 

@@ -18,8 +18,9 @@ from motion_planner_node.tours.exact import best_tour, is_small
 from motion_planner_node.tours.goals import Goal, attitudes, fit, passable
 from motion_planner_node.tours.legs import Legs
 from motion_planner_node.tours.local_search import LocalSearch
+from motion_planner_node.tours.precedences import from_start, next_to
 from motion_planner_node.tours.refining import refined
-from motion_planner_node.tours.samples import Samples, next_to
+from motion_planner_node.tours.samples import Samples
 
 #: For no more goals than these all rounds of an effort are made.
 FEW = 16
@@ -151,15 +152,13 @@ class TourSearch:
         states = attitudes(
             goals, self._ground, self._start[None, :], self._part, most, self._should_stop
         )
-        before = np.pad(self._before, ((1, 0), (1, 0)))
-        before[0, 1:] = True
         samples = Samples(
             self._ground,
             self._legs,
             self._start,
             states,
             most,
-            next_to(before),
+            next_to(from_start(self._before)),
             self._should_stop,
         )
         if self._ends is not None:
@@ -191,9 +190,8 @@ class TourSearch:
             samples.costs,
             samples.first,
             samples.count,
-            np.pad(self._before, ((1, 0), (1, 0))),
+            from_start(self._before),
         )
-        groups.before[0, 1:] = True
         search = None if self._fixed or is_small(groups) else LocalSearch(groups, self._should_stop)
         known = np.concatenate(([0], best.order + 1)) if best.length < inf else None
         found = None
