@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from itertools import pairwise
 from math import hypot, remainder, tau
 
-import numpy as np
-from scipy.sparse.csgraph import dijkstra
+import rustworkx
 
 from experiments.paper.methods.graphs import Graph
 from motion_planner_node.planner import MotionPlanner
@@ -33,7 +33,7 @@ SAME = 1e-6
 
 
 class ShortestPaths:
-    """The paper's external algorithm: each request is a search of its own (Dijkstra, by scipy).
+    """The paper's external algorithm: each request is a search of its own (Dijkstra, by rustworkx).
 
     A geometric state is the label of a waypoint; what an answer carries is the way's waypoints.
     """
@@ -41,7 +41,12 @@ class ShortestPaths:
     def __init__(self, graph: Graph) -> None:
         self._labels = list(graph.points)
         self._number = {label: index for index, label in enumerate(self._labels)}
-        self._lengths = graph.lengths()
+        self._arcs = graph.arcs
+        self._graph: rustworkx.PyDiGraph[str, float] = rustworkx.PyDiGraph()
+        self._graph.add_nodes_from(self._labels)
+        self._graph.add_edges_from(
+            [(self._number[a], self._number[b], length) for (a, b), length in graph.arcs.items()]
+        )
 
     def check(self, _text: str, _source: str, _line: int, _column: int) -> TextCheck:
         """Oracle.check: there is nothing to check."""
@@ -50,17 +55,15 @@ class ShortestPaths:
     def satisfy(self, query: Query) -> Answer:
         """Oracle.satisfy: the shortest way to the waypoint that the text names as its object."""
         (goal,) = _OBJECT.findall(query.preconditions)
-        start = self._number[str(query.start)]
-        lengths, before = dijkstra(self._lengths, indices=start, return_predecessors=True)
-        at = self._number[goal]
-        if not np.isfinite(lengths[at]):
-            return Answer(Status.IMPOSSIBLE, scope=Scope.CONNECTED_STARTS, objects=(goal,))
+        start, end = self._number[str(query.start)], self._number[goal]
+        ways = rustworkx.dijkstra_shortest_paths(self._graph, start, end, weight_fn=float)
         way = [goal]
-        while at != start:
-            at = int(before[at])
-            way.append(self._labels[at])
-        length = float(lengths[self._number[goal]])
-        return Answer(Status.FOUND, end=goal, length=length, objects=(goal,), payload=way[::-1])
+        if end in ways:
+            way = [self._labels[index] for index in ways[end]]
+        elif end != start:
+            return Answer(Status.IMPOSSIBLE, scope=Scope.CONNECTED_STARTS, objects=(goal,))
+        length = sum([self._arcs[arc] for arc in pairwise(way)])
+        return Answer(Status.FOUND, end=goal, length=length, objects=(goal,), payload=way)
 
     def advise(self, _query: AdviceQuery) -> Advice:
         """Oracle.advise: none."""

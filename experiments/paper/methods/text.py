@@ -51,7 +51,7 @@ the shortest others) between {len(sparse.joined)} of these waypoints, far from e
 
 Photos are taken at waypoints, in the order of the text, from one start. **Blind** drives to the first waypoint of the
 facts that can be reached, **nearest first** to the one nearest to the rover. **Hybrid** knows no waypoint: each photo's
-geometric precondition is a request, answered by one run of Dijkstra's algorithm (scipy) on the same graph. Matching is
+geometric precondition is a request, answered by one run of Dijkstra's algorithm (rustworkx) on the same graph. Matching is
 **linear** where each literal is compared with one fact of its predicate after the other, and no further than is asked
 for, as in the paper, and **indexed** where the task planner looks facts up, as it does by default. The
 fourth method is **{ATTITUDES_NAME}**: the paper's photos, advice, and motions that the rover can drive, on the same goals.
