@@ -26,15 +26,7 @@ from experiments.paper.methods.graphs import (
 )
 from experiments.paper.methods.oracles import ShortestPaths
 from experiments.paper.methods.summary import compare, slopes
-from experiments.paper.methods.trials import (
-    ATTITUDES_NAME,
-    METHODS,
-    Bench,
-    Method,
-    Trial,
-    fastest,
-    run_attitudes,
-)
+from experiments.paper.methods.trials import ATTITUDES_NAME, METHODS, Bench, Trial, run_attitudes
 from experiments.paper.part import Part
 from experiments.paper.run import main
 from motion_planner_node.world.model import Polygon
@@ -253,34 +245,6 @@ def trial(goals: int, number: int, seconds: float, outcome: str = 'SOLVED') -> T
     return Trial(
         *('g', 'm', goals, number, outcome, seconds, length, 10 * goals, 0, 0, goals), reason=reason
     )
-
-
-@pytest.mark.parametrize(
-    ('searches', 'kept', 'made'),
-    [
-        ('0.3 0.1 0.2', 0.1, 3),
-        ('0.3 given-up 0.2', 0.2, 3),
-        ('given-up 0.1 0.2', 2.0, 1),
-    ],
-)
-def test_the_fastest_search_counts_and_none_that_was_given_up_is_made_again(
-    monkeypatch: pytest.MonkeyPatch,
-    graphs: tuple[Graph, Graph],
-    searches: str,
-    kept: float,
-    made: int,
-) -> None:
-    left = searches.split()
-
-    def search(_bench: Bench, _method: Method, count: int, number: int) -> Trial:
-        seconds = left.pop(0)
-        if seconds == 'given-up':
-            return trial(count, number, 2.0, 'CANCELLED')
-        return trial(count, number, float(seconds))
-
-    monkeypatch.setattr(Bench, 'trial', search)
-    assert fastest(Bench(graphs[0], 1, 2.0), METHODS[0], 3, 0, 3).seconds == kept
-    assert len(left) == 3 - made
 
 
 def test_slopes_are_those_of_the_trials_with_a_plan() -> None:

@@ -29,8 +29,8 @@ from experiments.results import Target
 Trials = dict[tuple[str, str], list[Trial]]
 
 
-FULL = Sizes(tuple(range(1, 16)), (1, 8, 15), sets=20, limit=2.0, repeats=3)
-QUICK = Sizes((2, 4), (2, 4), sets=1, limit=2.0, repeats=1)
+FULL = Sizes(tuple(range(1, 16)), (1, 8, 15), 20, 2.0)
+QUICK = Sizes((2, 4), (2, 4), 1, 2.0)
 
 
 def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
@@ -45,7 +45,7 @@ def measure(sizes: Sizes, seed: int, folder: Path) -> Part:
     for graph in graphs:
         bench = Bench(graph, seed, sizes.limit)
         for trial in chain(
-            run_paper_methods(bench, sizes),
+            run_paper_methods(bench, sizes.goals, sizes.few_measured, sizes.sets),
             run_attitudes(bench, world, sizes.goals, sizes.sets),
         ):
             trials[trial.graph, trial.method].append(trial)

@@ -62,8 +62,8 @@ other is left, the search takes steps back. Without any such rule a blind search
 a dead end may be run into again on every other way that leads there: those searches end at {sizes.limit:g} s of
 processor time. Left to the search, which remembers what failed, no waypoint has to be noted ("circles left to the search").
 
-For each of {len(sizes.goals)} numbers of goals {sizes.sets} random sets. Time is processor time of the search, without reading,
-{_repeated(sizes.repeats)}. Its slope is that of a straight line through the sizes of one series of sets; the tables give the median over {sizes.sets} series, and quartiles in brackets.
+For each of {len(sizes.goals)} numbers of goals {sizes.sets} random sets. Time is processor time of the search, without reading. Its slope is that
+of a straight line through the sizes of one series of sets; the tables give the median over {sizes.sets} series, and quartiles in brackets.
 Searches without a plan are left out of slopes and lengths, in favour of the method that failed.
 {only if sizes.few_measured != sizes.goals else ''}
 """
@@ -81,12 +81,6 @@ Searches without a plan are left out of slopes and lengths, in favour of the met
         "set by set over the hybrid's, which `length_ratios.csv` has in figures.\n"
     )
     return '\n'.join(parts)
-
-
-def _repeated(repeats: int) -> str:
-    if repeats == 1:
-        return 'of one search'
-    return f'the least of {repeats} searches ({ATTITUDES_NAME}: of one)'
 
 
 def _row(one: Comparison) -> list[object]:

@@ -39,14 +39,12 @@ class Sizes:
     goals: numbers of goals; few: some with which indexed symbolic search and the variants are tried
     sets: random sets of goals for each number
     limit: [s] of processor time after which a search is given up
-    repeats: how often each search of the paper's methods is made; the least time counts
     """
 
     goals: tuple[int, ...]
     few: tuple[int, ...]
     sets: int
     limit: float
-    repeats: int
 
     @property
     def few_measured(self) -> tuple[int, ...]:
@@ -210,28 +208,18 @@ def quiet_collector() -> Iterator[None]:
         gc.unfreeze()
 
 
-def run_paper_methods(bench: Bench, sizes: Sizes) -> Iterator[Trial]:
+def run_paper_methods(
+    bench: Bench, goals: Sequence[int], few: Sequence[int], sets: int
+) -> Iterator[Trial]:
     """All methods on all sets, in turns; what is loaded at first is not counted."""
     with quiet_collector():
         for method in METHODS:
-            bench.trial(method, sizes.goals[0], sizes.sets)
-        for number in range(sizes.sets):
-            for count in sizes.goals:
+            bench.trial(method, goals[0], sets)
+        for number in range(sets):
+            for count in goals:
                 for method in METHODS:
-                    if method.everywhere or count in sizes.few_measured:
-                        yield fastest(bench, method, count, number, sizes.repeats)
-
-
-def fastest(bench: Bench, method: Method, count: int, number: int, repeats: int) -> Trial:
-    """The trial that took the least time: what else runs on the machine only adds to it.
-
-    All are the same but for that; a search that was given up is not made again.
-    """
-    found = bench.trial(method, count, number)
-    for _ in range(repeats - 1 if found.solved else 0):
-        again = bench.trial(method, count, number)
-        found = min(found, again, key=lambda trial: (not trial.solved, trial.seconds))
-    return found
+                    if method.everywhere or count in few:
+                        yield bench.trial(method, count, number)
 
 
 def run_attitudes(bench: Bench, world: World, goals: Sequence[int], sets: int) -> Iterator[Trial]:
