@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from motion_planner_node.tours.precedences import from_start
-
-Mask = NDArray[np.bool_]
+from motion_planner_node.tours.precedences import Mask, from_start
 
 
 def random_precedences(rng: np.random.Generator, goals: int, pairs: int) -> Mask:

@@ -62,7 +62,7 @@ class ShortestPaths:
             way = [self._labels[index] for index in ways[end]]
         elif end != start:
             return Answer(Status.IMPOSSIBLE, scope=Scope.CONNECTED_STARTS, objects=(goal,))
-        length = sum([self._arcs[arc] for arc in pairwise(way)])
+        length = sum([self._arcs[arc] for arc in pairwise(way)], 0.0)
         return Answer(Status.FOUND, end=goal, length=length, objects=(goal,), payload=way)
 
     def advise(self, _query: AdviceQuery) -> Advice:

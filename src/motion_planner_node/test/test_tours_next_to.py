@@ -21,13 +21,12 @@ from motion_planner_node.stopping import never
 from motion_planner_node.tours.chains import Groups, best_chain
 from motion_planner_node.tours.exact import best_tour
 from motion_planner_node.tours.legs import Legs
-from motion_planner_node.tours.precedences import next_to
+from motion_planner_node.tours.precedences import Mask, next_to
 from motion_planner_node.tours.samples import Samples
 from motion_planner_node.world import Scene
 from motion_planner_node.world.model import Bounds, Circle, World, WorldObject
 from tests.support.precedences import random_precedences
 
-Mask = NDArray[np.bool_]
 CAR = Robot('r', 8.0, 0.5, 5.0, 2.0)
 ROCK = Circle('rock', (150.0, 150.0), 50.0)
 WORLD = World('', '', Bounds(0.0, 0.0, 300.0, 300.0), {}, (ROCK,), {'r': CAR})

@@ -16,12 +16,19 @@ from task_planner_node.search.terms import Slots, match
 NODE = ListNode([], 0, 0)
 variables = st.sampled_from([Variable('?a'), Variable('?b'), Variable('?c'), Variable('?d')])
 words: st.SearchStrategy[Any] = st.sampled_from(['x', 'y', 1, 1.0])
-patterns = st.builds(
-    lambda items, tail: Pattern(tuple(items), tail),
-    st.lists(variables | words, min_size=1, max_size=3),
-    st.none() | variables,
-).filter(lambda pattern: any(isinstance(item, Variable) for item in (*pattern.items, pattern.tail)))
-arguments = st.lists(variables | words | patterns | st.just(()), max_size=3)
+
+
+def lists_of(items: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
+    """Patterns with a variable in them."""
+    patterns = st.builds(
+        lambda items, tail: Pattern(tuple(items), tail),
+        st.lists(items, min_size=1, max_size=3),
+        st.none() | variables | words,
+    )
+    return patterns.filter(lambda p: any(not isinstance(i, str | int | float) for i in p.items))
+
+
+terms = variables | words | st.just(()) | lists_of(variables | words | lists_of(variables | words))
 lists = st.lists(words, max_size=4).map(tuple)
 
 
@@ -30,31 +37,42 @@ def values(draw: st.DrawFn, term: Any) -> Any:
     """What nearly always has the shape of an argument."""
     if not isinstance(term, Pattern):
         return draw(words | lists if isinstance(term, Variable) else st.just(term) | words)
-    count = len(term.items) + draw(st.sampled_from([-1, 0, 0, 0, 1]))
-    items = tuple([draw(words) for _ in range(count)])
-    return Dotted(items, draw(words)) if items and draw(st.integers(0, 3)) == 0 else items
+    items = tuple([draw(values(item)) for item in term.items])
+    more = draw(st.sampled_from(['', '', '', 'less', 'more']))
+    items = items[1:] if more == 'less' else (*items, 'x') if more == 'more' else items
+    return Dotted(items, draw(words)) if items and draw(st.integers(0, 2)) == 0 else items
 
 
 @st.composite
-def heads_and_tasks(draw: st.DrawFn) -> tuple[list[Any], list[Any]]:
-    """Arguments of a head, and as many values."""
-    terms = draw(arguments)
-    return terms, [draw(values(term)) for term in terms]
+def heads_and_tasks(draw: st.DrawFn) -> list[tuple[Any, Any, bool]]:
+    """Arguments of a head, each with a value and whether tasks have one there."""
+    args = draw(st.lists(terms, max_size=3))
+    return [(term, draw(values(term)), draw(st.integers(0, 4)) > 0) for term in args]
 
 
 @given(heads_and_tasks())
-@example(([Pattern((Variable('?a'),), None)], [('x', 'y')]))
-@example(([Pattern((Variable('?a'),), Variable('?b'))], [Dotted(('x',), 'y')]))
-@example(([Variable('?a'), Pattern((Variable('?b'),), Variable('?a'))], [('y',), ('x', 'y')]))
-def test_a_task_fits_a_head_where_all_arguments_match(drawn: tuple[list[Any], list[Any]]) -> None:
-    args, given_values = drawn
+@example([(Pattern((Variable('?a'),), None), ('x', 'y'), True)])
+@example([(Pattern((Variable('?a'),), Variable('?b')), Dotted(('x',), 'y'), True)])
+@example(
+    [
+        (Variable('?a'), ('y',), True),
+        (Pattern((Variable('?b'),), Variable('?a')), ('x', 'y'), True),
+    ]
+)
+def test_a_task_fits_a_head_where_all_arguments_match(drawn: list[tuple[Any, Any, bool]]) -> None:
     slots = Slots(Source('d.lisp', ''))
-    head = Head(Atom('do', tuple(args), NODE), slots)
-    task = ('do', *given_values)
+    args, given_values, known = zip(*drawn, strict=True) if drawn else ((), (), ())
+    head = Head(Atom('do', args, NODE), slots, known)
+    slots.constant('of the rest')
     frame: list[Any] | None = slots.template.copy()
-    for term, value in zip(head.terms, given_values, strict=True):
-        if frame is not None and not match(term, value, frame, []):
+    for term, value, is_known in zip(head.terms, given_values, known, strict=True):
+        if is_known and frame is not None and not match(term, value, frame, []):
             frame = None
     bind = head.binder()
-    assert bind(task) == frame
-    assert bind((*task, 'x')) is None
+    bound = bind(('do', *given_values))
+    tested = sorted(head.bound)
+    if frame is None or bound is None:
+        assert bound == frame
+    else:
+        assert [bound[slot] for slot in tested] == [frame[slot] for slot in tested]
+    assert bind(('do', *given_values, 'x')) is None

@@ -34,7 +34,7 @@ from task_planner_node.search.structure import least_costs, names_above, recursi
 from task_planner_node.search.terms import Frame, Slots
 from task_planner_node.search.unbound import ground, known
 
-# Tasks of which it is remembered which methods fit.
+# Tasks for which it is kept which methods fit, at most.
 MOST_KNOWN = 100_000
 
 
@@ -166,7 +166,7 @@ class CompiledDomain:
         return self._method_variants[key]
 
     def fit(self, task: Task) -> Fit:
-        """Which methods fit a task, whatever the facts are."""
+        """Which methods fit a task, whatever the facts are; all of its name, where it has arguments without a value."""
         if self.loose and not ground(task):
             return _fit(self.methods_for(task))
         fit = self._fits.get(task)

@@ -9,7 +9,7 @@ from task_planner_node.language.model import Atom, Variable
 from task_planner_node.search.terms import Compiled, Frame, ListPattern, Slots, match, slots_of
 
 Bind = Callable[[tuple[Any, ...]], Frame | None]
-# Binds what an argument has in it; False where it does not fit.
+# Matches an argument of a task and binds what the head has there; False where it does not fit.
 Take = Callable[[Any, Frame], bool]
 
 

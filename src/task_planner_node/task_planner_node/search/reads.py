@@ -1,15 +1,18 @@
-"""The predicates whose facts decide how a task may be done, told from the text of a domain."""
+"""The predicates whose facts decide how a task may be done in a relaxation, told from the text of a domain."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from task_planner_node.language.model import Atom, Condition, Domain, Stated
+from task_planner_node.language.model import Atom, Condition, Domain, Forall, Not, Stated
 from task_planner_node.language.walk import conditions_in, parts_of
 
 
 class Reads:
-    """What the conditions of operators and methods, and of their effects, look at; axioms are followed."""
+    """What the conditions of operators and methods, and of their effects, look at in a relaxed state.
+
+    Axioms are followed; what always holds there, as a negation does, looks at nothing.
+    """
 
     def __init__(self, domain: Domain) -> None:
         conditions: dict[str, list[Condition]] = {}
@@ -27,10 +30,10 @@ class Reads:
         self._all = frozenset().union(*known) if len(known) == len(self._of) else None
 
     def of(self, task: str) -> frozenset[str] | None:
-        """Names of predicates; None where a condition looks at a literal that only the search knows."""
+        """Predicates that tasks of this name look at; None where the search alone knows some literal's."""
         return self._of.get(task, frozenset())
 
-    def matter(self, predicate: str) -> bool:
+    def is_read(self, predicate: str) -> bool:
         """Whether any task may look at the facts of a predicate."""
         return self._all is None or predicate in self._all
 
@@ -48,7 +51,9 @@ class Reads:
 
 
 def _leaves(condition: Condition) -> Iterator[Condition]:
-    """The parts of a condition that are not made of others."""
+    """The parts of a condition that are not made of others, without those that always hold in a relaxed state."""
+    if isinstance(condition, (Not, Forall)):
+        return
     parts = parts_of(condition)
     if not parts:
         yield condition

@@ -113,10 +113,11 @@ class _Relaxation:
         self._lost: dict[str, Task] = {}
         self._decompositions: dict[Task, dict[tuple[Task, ...], None]] = {}
         self._agenda: list[Task] = []
-        # How many facts that tasks read had been added when a task was looked at, and with the latest of a predicate.
+        # The facts added that some task reads are counted: so far, when a task was looked at last, and with the latest
+        # fact of a predicate.
+        self._added = 0
         self._looked: dict[Task, int] = {}
         self._latest: dict[str, int] = {}
-        self._added = 0
         self._bindings = 0
 
     def explore(self, tasks: Iterable[Task]) -> None:
@@ -148,8 +149,10 @@ class _Relaxation:
     def _has_news(self, task: Task) -> bool:
         """Whether a task was not looked at since facts appeared that it reads."""
         looked = self._looked[task]
-        if looked == NEVER or looked == self._added:
-            return looked == NEVER
+        if looked == NEVER:
+            return True
+        if looked == self._added:
+            return False
         names = self._domain.reads.of(task[0])
         return names is None or any(self._latest.get(name, 0) > looked for name in names)
 
@@ -180,7 +183,7 @@ class _Relaxation:
                 self.assigns = self.assigns or operator.assigns
             self._done.add(task)
             for fact in adds:
-                if self._state.add(fact) and self._domain.reads.matter(fact[0]):
+                if self._state.add(fact) and self._domain.reads.is_read(fact[0]):
                     self._added += 1
                     self._latest[fact[0]] = self._added
 
