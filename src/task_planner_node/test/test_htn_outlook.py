@@ -76,7 +76,7 @@ class Mission:
         """The length of the shortest plan that empties the store when it is full, and in the end."""
 
         @lru_cache(None)
-        def rest(here: Point, left: str, load: int, images: str, unsent: bool) -> float:
+        def rest(here: Point, left: str, load: int, images: str, unsent: str) -> float:
             if not (left or load or images or unsent):
                 return 0.0
             ways: list[float] = []
@@ -95,12 +95,12 @@ class Mission:
             if load and (load == self.room if left else not images and not unsent):
                 go(['base'], left, 0, images, unsent)
             if unsent:
-                go(['base'], left, load, images, False)  # noqa: FBT003
+                go(['base'], left, load, images, '')
             for label in '' if unsent else images:
-                go(['target', label], left, load, images.replace(label, ''), True)  # noqa: FBT003
+                go(['target', label], left, load, images.replace(label, ''), label)
             return min(ways, default=math.inf)
 
-        return rest(START, self.samples, 0, self.images, False)  # noqa: FBT003
+        return rest(START, self.samples, 0, self.images, '')
 
 
 coordinates = st.tuples(st.integers(-9, 9).map(float), st.integers(-9, 9).map(float))
