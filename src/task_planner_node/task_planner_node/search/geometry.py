@@ -104,8 +104,6 @@ class Geometry:
 
     def nogood(self, request: Request) -> Nogood | None:
         """Why a request cannot be met, when that is proven already."""
-        if not self._nogoods:
-            return None
         for text in {request.text: None, request.key: None}:
             found = self.lasting_nogood(text, request.lineage) or self._nogoods.get(
                 (Scope.THIS_START, request.start, text)

@@ -9,7 +9,7 @@ from task_planner_node.language.walk import conditions_in, parts_of
 
 
 class Reads:
-    """What the conditions of operators and methods, and of their effects, look at in a relaxed state.
+    """What the conditions of operators and methods, and of what they make true, look at in a relaxed state.
 
     Axioms are followed; what always holds there, as a negation does, looks at nothing.
     """
@@ -18,7 +18,7 @@ class Reads:
         conditions: dict[str, list[Condition]] = {}
         for operator in domain.operators:
             own = conditions.setdefault(operator.head.name, [])
-            own += (operator.condition, *conditions_in((*operator.deletes, *operator.adds)))
+            own += (operator.condition, *conditions_in(operator.adds))
         for method in domain.methods:
             own = conditions.setdefault(method.head.name, [])
             own += (branch.condition for branch in method.branches)
