@@ -9,12 +9,13 @@ import pytest
 
 from tests.support.missions import ROVER, Run, run_mission
 from tests.support.processes import started
+from tests.support.spinning import DOMAIN
 
 
 @pytest.fixture(scope='session', autouse=True)
 def own_domain() -> None:
     """Keep other robots, and other test runs on this machine, out of these tests."""
-    os.environ['ROS_DOMAIN_ID'] = str(1 + os.getpid() % 200)
+    os.environ['ROS_DOMAIN_ID'] = str(DOMAIN)
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
 
 

@@ -14,10 +14,11 @@ import rclpy
 from geohtn_msgs import msg, srv
 from rclpy.executors import SingleThreadedExecutor
 
+from tests.support.spinning import DOMAIN
+
 PACKAGE = Path(__file__).resolve().parents[2] / 'src' / 'motion_planner_node'
 ROVER = PACKAGE.parent / 'interface_node' / 'missions' / 'rover' / 'world.yaml'
 DEADLINE = 60.0
-DOMAIN = 1 + os.getpid() % 200
 START = msg.AgentState(agent='rover0', x=20.0, y=20.0, heading=0.0)
 
 
@@ -29,7 +30,7 @@ def start_node(*arguments: str) -> subprocess.Popen[str]:
         'PYTHONUNBUFFERED': '1',
     }
     return subprocess.Popen(
-        [sys.executable, '-m', 'motion_planner_node.node', *arguments],
+        [sys.executable, '-X', 'faulthandler', '-m', 'motion_planner_node.node', *arguments],
         env=environment,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

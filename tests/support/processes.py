@@ -44,6 +44,24 @@ def node_command(package: str, namespace: str) -> list[str]:
     return [str(executable), '--ros-args', '-r', f'__ns:=/{namespace}']
 
 
+def output_of(process: subprocess.Popen[str], patience: float) -> str:
+    """What ``process`` prints until it ends.
+
+    Where it does not end it is killed, and the assertion shows where its threads are, if it was
+    started with ``-X faulthandler``.
+    """
+    try:
+        return process.communicate(timeout=patience)[0]
+    except subprocess.TimeoutExpired:
+        process.send_signal(signal.SIGABRT)
+    try:
+        output = process.communicate(timeout=5.0)[0]
+    except subprocess.TimeoutExpired:
+        process.kill()
+        output = process.communicate()[0]
+    raise AssertionError(f'still there after {patience:g} s:\n{output}')
+
+
 @contextmanager
 def running(command: list[str]) -> Iterator[subprocess.Popen[str]]:
     """``command`` in a session of its own; interrupted, then killed, when the block is left."""

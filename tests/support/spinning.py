@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any
 
 import rclpy
@@ -32,11 +32,12 @@ def spinning(
     executor = MultiThreadedExecutor(num_threads=4, context=context)
     executor.add_node(node)
 
+    stopped = threading.Event()
+
     def spin() -> None:
-        try:
-            executor.spin()
-        except ExternalShutdownException:
-            return
+        with suppress(ExternalShutdownException):
+            while not stopped.is_set():
+                executor.spin_once()
 
     thread = threading.Thread(target=spin)
     thread.start()
@@ -44,7 +45,9 @@ def spinning(
         yield node
     finally:
         release(node)
-        executor.shutdown(timeout_sec=PATIENCE)
+        stopped.set()
+        executor.create_task(lambda: None)  # work ends spin_once
         thread.join()
+        executor.shutdown(timeout_sec=PATIENCE)
         close(node)
         rclpy.shutdown(context=context)

@@ -30,7 +30,7 @@ from interface_node.outputs_node import Outputs
 from interface_node.parameters import PARAMETERS, Parameters, checked, table
 from interface_node.peers_node import Peers
 from interface_node.plan import Plan
-from interface_node.signals import interrupt_on_signals
+from interface_node.signals import StopSignals
 
 USAGE = f"""\
 usage: interface_node [--help] [--ros-args ...]
@@ -236,9 +236,9 @@ def main(arguments: list[str] | None = None) -> int:
         print(USAGE if wanted else f'unknown argument {own[0]}\n\n{USAGE}', end='')
         return 0 if wanted else 2
     rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
-    interrupt_on_signals()
+    signals = StopSignals()
     try:
-        _serve()
+        _serve(signals)
     except KeyboardInterrupt:
         return 0
     except ValueError as error:
@@ -249,7 +249,7 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
-def _serve() -> None:
+def _serve(signals: StopSignals) -> None:
     node = InterfaceNode()
     executor = MultiThreadedExecutor(num_threads=4)
     executor.add_node(node)
@@ -260,11 +260,12 @@ def _serve() -> None:
             executor.spin_once(timeout_sec=0.5)
 
     spinning = threading.Thread(target=spin)
+    signals.hold()
     try:
         spinning.start()
         node.get_logger().info('ready')
-        while spinning.is_alive():
-            stopped.wait(0.5)
+        while spinning.is_alive() and not signals.wait(0.5):
+            pass
     finally:
         node.finish(2.0)
         stopped.set()

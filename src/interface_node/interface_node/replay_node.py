@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -21,9 +20,9 @@ from geohtn_msgs.msg import (
 )
 from geohtn_msgs.srv import Advise, SatisfyPreconditions, SetWorld
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 
+from interface_node.background_node import BackgroundExecutor
 from interface_node.recording.comparison import differences, sentence
 from interface_node.recording.errors import RecordingError
 from interface_node.recording.message_conversions import EVENTS, read_messages
@@ -156,10 +155,7 @@ class _Client:
             enable_rosout=False,
             start_parameter_services=False,
         )
-        executor = SingleThreadedExecutor(context=context)
-        executor.add_node(node)
-        thread = threading.Thread(target=_spin, args=(executor,), daemon=True)
-        thread.start()
+        executor = BackgroundExecutor(node)
         try:
             self._clients = {
                 kind: node.create_client(kind, name)
@@ -172,8 +168,7 @@ class _Client:
             self._find()
             yield self
         finally:
-            executor.shutdown()
-            thread.join()
+            executor.close()
             node.destroy_node()
             rclpy.shutdown(context=context)
 
@@ -216,10 +211,3 @@ class _Client:
             raise MotionPlannerUnavailable(
                 f'motion_planner_node did not answer within {self._timeout:g} s'
             ) from None
-
-
-def _spin(executor: SingleThreadedExecutor) -> None:
-    try:
-        executor.spin()
-    except ExternalShutdownException:
-        return

@@ -29,7 +29,7 @@ from motion_planner_node.planning.check import check_text
 from motion_planner_node.planning.sampled import sampled
 from motion_planner_node.requests import AdviceAnswer, GeometricAnswer
 from motion_planner_node.settings_node import Settings
-from motion_planner_node.signals import held_back, interrupt_on_signals
+from motion_planner_node.signals import StopSignals
 from motion_planner_node.turns import Turns
 from motion_planner_node.worlds_node import Worlds, diagnostics_of
 
@@ -231,10 +231,10 @@ def main(arguments: list[str] | None = None) -> int:
         rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
     except RuntimeError as error:  # how rcl refuses its arguments
         return _refuse(error)
-    interrupt_on_signals()
+    signals = StopSignals()
     try:
         load_plugins()
-        _serve()
+        _serve(signals)
     except KeyboardInterrupt:
         pass
     except (ParameterError, PluginError, MotionPlannerError) as error:
@@ -244,7 +244,7 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
-def _serve() -> None:
+def _serve(signals: StopSignals) -> None:
     node = MotionPlannerNode()
     executor = RelayExecutor()
     executor.add_node(node)
@@ -257,19 +257,18 @@ def _serve() -> None:
             executor.spin_once(timeout_sec=0.5)
 
     spinning = [threading.Thread(target=spin) for _ in range(THREADS)]
+    signals.hold()
     try:
-        with held_back():
-            for thread in spinning:
-                thread.start()
+        for thread in spinning:
+            thread.start()
         node.get_logger().info('ready')
-        while all(thread.is_alive() for thread in spinning):
-            node.stopping.wait(0.5)
+        while all(thread.is_alive() for thread in spinning) and not signals.wait(0.5):
+            pass
     finally:
         node.finish()
         executor.wake()
         for thread in spinning:
-            if thread.ident is not None:
-                thread.join()
+            thread.join()
         executor.shutdown()
         node.destroy_node()
 

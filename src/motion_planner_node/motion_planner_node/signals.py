@@ -3,34 +3,40 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Iterator
-from contextlib import contextmanager
+from queue import Empty, SimpleQueue
 from types import FrameType
 
 STOPPING = (signal.SIGINT, signal.SIGTERM)
 
 
-def interrupt_on_signals() -> None:
-    """Make the first SIGINT or SIGTERM raise KeyboardInterrupt in the main thread; more change nothing.
+class StopSignals:
+    """Raises KeyboardInterrupt in the main thread at the first signal; after :meth:`hold` notes it.
 
-    The main thread has to wait for an Event: inside ROS it would hear nothing, and a join that an
-    exception leaves takes the other thread for ended (Python before 3.13).
+    Once there are other threads nothing may be raised: an exception inside an Event leaves its lock
+    taken, and one inside ``Thread.is_alive`` takes a running thread for ended (Python before 3.13).
+    Make one in the main thread, and wait there: inside ROS it would hear nothing.
     """
-    for number in STOPPING:
-        signal.signal(number, _interrupt)
 
+    def __init__(self) -> None:
+        self._received: SimpleQueue[int] = SimpleQueue()  # its put may interrupt its own get
+        self._raises = True
+        for number in STOPPING:
+            signal.signal(number, self._receive)
 
-@contextmanager
-def held_back() -> Iterator[None]:
-    """Inside the block no signal interrupts; one that comes meanwhile does at its end."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, STOPPING)
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    def hold(self) -> None:
+        """From now on signals are noted for :meth:`wait`, also one whose exception got lost."""
+        self._raises = False
 
+    def wait(self, timeout: float) -> bool:
+        """Wait for a signal, `timeout` seconds at most; True when one has come."""
+        try:
+            self._received.get(timeout=timeout)
+        except Empty:
+            return False
+        return True
 
-def _interrupt(_number: int, _frame: FrameType | None) -> None:
-    for number in STOPPING:
-        signal.signal(number, signal.SIG_IGN)
-    raise KeyboardInterrupt
+    def _receive(self, number: int, _frame: FrameType | None) -> None:
+        self._received.put(number)
+        if self._raises:
+            self._raises = False
+            raise KeyboardInterrupt

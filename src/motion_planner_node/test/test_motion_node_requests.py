@@ -13,6 +13,7 @@ from rcl_interfaces.srv import GetParameters
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 from tests.support.motion_planner import DEADLINE, ROVER, START, Asker, start_node, wait_until_ready
+from tests.support.processes import output_of
 
 TEXT = ROVER.read_text(encoding='utf-8')
 OTHER = TEXT.replace('location8', 'location9')
@@ -166,7 +167,7 @@ def test_the_node_ends_in_the_middle_of_a_request() -> None:
         finally:
             client.close()
         process.send_signal(signal.SIGTERM)
-        output, _ = process.communicate(timeout=DEADLINE)
+        output = output_of(process, DEADLINE)
     assert process.returncode == 0
     assert 'Traceback' not in output
 

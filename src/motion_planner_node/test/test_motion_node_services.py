@@ -18,7 +18,6 @@ from rclpy.parameter import Parameter
 
 from tests.support.motion_planner import (
     DEADLINE,
-    DOMAIN,
     PACKAGE,
     ROVER,
     START,
@@ -26,6 +25,8 @@ from tests.support.motion_planner import (
     start_node,
     wait_until_ready,
 )
+from tests.support.processes import output_of
+from tests.support.spinning import DOMAIN
 
 PHOTO = (
     '((agent rover0)(object {0})(distance(rover0, {0}) >= 50)(distance(rover0, {0}) <= 100)'
@@ -265,7 +266,7 @@ def test_replicas_give_the_same_answer(rover: Asker) -> None:
 )
 def test_a_wrong_start_ends_in_a_sentence(arguments: list[str], code: int, expected: str) -> None:
     with start_node(*arguments) as process:
-        output, _ = process.communicate(timeout=DEADLINE)
+        output = output_of(process, DEADLINE)
     assert process.returncode == code
     assert expected in output
     assert 'Traceback' not in output
@@ -276,7 +277,7 @@ def test_a_signal_stops_the_node_cleanly(number: signal.Signals) -> None:
     with start_node('--ros-args', '-p', f'world:={ROVER}') as process:
         wait_until_ready(process)
         process.send_signal(number)
-        output, _ = process.communicate(timeout=DEADLINE)
+        output = output_of(process, DEADLINE)
     assert process.returncode == 0, output
     assert 'Traceback' not in output
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import count
 from math import inf
@@ -53,19 +54,21 @@ class MotionPlannerClient(Node):
         self.check = self.create_client(CheckPreconditions, 'check_preconditions')
         self._spinner = SingleThreadedExecutor(context=context)
         self._spinner.add_node(self)
+        self._closed = threading.Event()
         self._thread = threading.Thread(target=self._spin, daemon=True)
         self._thread.start()
 
     def _spin(self) -> None:
-        try:
-            self._spinner.spin()
-        except ExternalShutdownException:
-            return
+        with suppress(ExternalShutdownException):
+            while not self._closed.is_set():
+                self._spinner.spin_once()
 
     def close(self) -> None:
-        """Stop the thread and destroy the clients."""
+        """Stop the thread, then destroy what it waits on: before, it could wait for ever."""
+        self._closed.set()
+        self._spinner.create_task(lambda: None)  # work ends spin_once; wake() alone does not
+        self._thread.join()
         self._spinner.shutdown()
-        self._thread.join(timeout=2.0)
         self.destroy_node()
 
 

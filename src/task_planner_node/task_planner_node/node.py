@@ -46,7 +46,7 @@ from task_planner_node.parameters import (
 from task_planner_node.planner import Planner
 from task_planner_node.search.plans import Plan
 from task_planner_node.search.repair import Interrupted
-from task_planner_node.signals import interrupt_on_signals
+from task_planner_node.signals import StopSignals
 
 T = TypeVar('T')
 NAME = 'task_planner_node'
@@ -237,16 +237,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.parse_args(remove_ros_args(words)[1:])
     context = Context()
     rclpy.init(args=words, context=context, signal_handler_options=SignalHandlerOptions.NO)
-    interrupt_on_signals()
+    signals = StopSignals()
     try:
-        return _serve(context)
+        return _serve(context, signals)
     except KeyboardInterrupt:
         return 0
     finally:
         rclpy.shutdown(context=context)
 
 
-def _serve(context: Context) -> int:
+def _serve(context: Context, signals: StopSignals) -> int:
     try:
         load_plugins()
         node = TaskPlannerNode(context)
@@ -263,11 +263,12 @@ def _serve(context: Context) -> int:
             executor.spin_once(timeout_sec=0.5)
 
     thread = threading.Thread(target=spin)
+    signals.hold()
     try:
         thread.start()
         node.get_logger().info('ready')
-        while thread.is_alive():
-            stopped.wait(0.5)
+        while thread.is_alive() and not signals.wait(0.5):
+            pass
     finally:
         node.finish()
         stopped.set()

@@ -26,6 +26,7 @@ from rclpy.parameter import Parameter
 
 from task_planner_node.node import NAME, TaskPlannerNode
 from task_planner_node.outcomes import Outcome
+from tests.support.processes import output_of
 from tests.support.spinning import DOMAIN, PATIENCE, spinning
 from tests.support.tiny_motion_planner import tiny_motion_planner
 
@@ -245,7 +246,7 @@ def test_a_time_budget_that_is_none_is_refused(client: MissionClient, time_budge
 def run_node(*arguments: str) -> subprocess.Popen[str]:
     environment = {**os.environ, 'ROS_DOMAIN_ID': str(DOMAIN)}
     return subprocess.Popen(
-        [sys.executable, '-m', f'{NAME}.node', *arguments],
+        [sys.executable, '-X', 'faulthandler', '-m', f'{NAME}.node', *arguments],
         env=environment,
         cwd=Path(__file__).parents[1],
         stdout=subprocess.PIPE,
@@ -262,7 +263,7 @@ def test_a_signal_stops_the_process_without_a_traceback(number: signal.Signals) 
     line = process.stdout.readline()
     assert 'ready' in line, line + process.stdout.read()
     process.send_signal(number)
-    rest, _ = process.communicate(timeout=PATIENCE)
+    rest = output_of(process, PATIENCE)
     assert process.returncode == 0
     assert rest == ''
 
@@ -278,7 +279,7 @@ def test_a_signal_stops_the_process_without_a_traceback(number: signal.Signals) 
 )
 def test_the_command_line(arguments: tuple[str, ...], code: int, text: str) -> None:
     process = run_node(*arguments)
-    output, _ = process.communicate(timeout=PATIENCE)
+    output = output_of(process, PATIENCE)
     assert process.returncode == code
     assert text in output
     assert 'Traceback' not in output

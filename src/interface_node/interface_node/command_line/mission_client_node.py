@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import os
-from contextlib import suppress
-from threading import Event, Thread
+from threading import Event
 from types import TracebackType
 from typing import Any
 
@@ -13,9 +12,9 @@ from geohtn_msgs.action import PlanMission
 from geohtn_msgs.msg import PlanningOptions, SourceText
 from geohtn_msgs.srv import Explain, SatisfyPreconditions
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
 
+from interface_node.background_node import BackgroundExecutor
 from interface_node.command_line.goals import MissionGoal
 from interface_node.command_line.missions import Source
 from interface_node.command_line.results import MissionResult, Progress
@@ -58,10 +57,7 @@ class MissionClient:
             'task_planner_node': explain.service_is_ready,
             'interface_node': self._missions.server_is_ready,
         }
-        self._executor = SingleThreadedExecutor(context=self._context)
-        self._executor.add_node(self._node)
-        self._thread = Thread(target=self._spin, name='mission client', daemon=True)
-        self._thread.start()
+        self._executor = BackgroundExecutor(self._node)
 
     def __enter__(self) -> MissionClient:
         return self
@@ -72,8 +68,7 @@ class MissionClient:
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        self._executor.shutdown(timeout_sec=1.0)
-        self._thread.join(1.0)
+        self._executor.close()
         self._missions.destroy()
         self._node.destroy_node()
         rclpy.shutdown(context=self._context)
@@ -112,10 +107,6 @@ class MissionClient:
         self._cancelled = True
         if self._handle is not None:
             self._handle.cancel_goal_async()
-
-    def _spin(self) -> None:
-        with suppress(ExternalShutdownException):
-            self._executor.spin()
 
     def _on_feedback(self, message: Any) -> None:
         progress = message.feedback.progress
