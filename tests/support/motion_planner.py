@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ import rclpy
 from geohtn_msgs import msg, srv
 from rclpy.executors import SingleThreadedExecutor
 
+from tests.support.processes import running
 from tests.support.spinning import DOMAIN
 
 PACKAGE = Path(__file__).resolve().parents[2] / 'src' / 'motion_planner_node'
@@ -22,19 +24,16 @@ DEADLINE = 60.0
 START = msg.AgentState(agent='rover0', x=20.0, y=20.0, heading=0.0)
 
 
-def start_node(*arguments: str) -> subprocess.Popen[str]:
+def start_node(*arguments: str) -> AbstractContextManager[subprocess.Popen[str]]:
     environment = os.environ | {
         'PYTHONPATH': os.pathsep.join([str(PACKAGE), os.environ.get('PYTHONPATH', '')]),
         'ROS_DOMAIN_ID': str(DOMAIN),
         'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
         'PYTHONUNBUFFERED': '1',
     }
-    return subprocess.Popen(
+    return running(
         [sys.executable, '-X', 'faulthandler', '-m', 'motion_planner_node.node', *arguments],
-        env=environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
+        environment,
     )
 
 

@@ -6,7 +6,7 @@ import os
 import shutil
 import signal
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
@@ -63,10 +63,13 @@ def output_of(process: subprocess.Popen[str], patience: float) -> str:
 
 
 @contextmanager
-def running(command: list[str]) -> Iterator[subprocess.Popen[str]]:
+def running(
+    command: list[str], environment: Mapping[str, str] = os.environ
+) -> Iterator[subprocess.Popen[str]]:
     """``command`` in a session of its own; interrupted, then killed, when the block is left."""
     process = subprocess.Popen(
         command,
+        env=environment,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,

@@ -103,13 +103,10 @@ def asker() -> Iterator[Asker]:
 @contextmanager
 def node(*arguments: str) -> Iterator[None]:
     with start_node(*arguments) as process:
-        try:
-            wait_until_ready(process)
-            yield
-            process.send_signal(signal.SIGTERM)
-            assert process.wait(timeout=DEADLINE) == 0
-        finally:
-            process.kill()
+        wait_until_ready(process)
+        yield
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(timeout=DEADLINE) == 0
 
 
 def near(asker: Asker, revision: str = '') -> msg.GeometricAnswer:

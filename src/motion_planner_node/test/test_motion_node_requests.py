@@ -29,13 +29,10 @@ ENDLESS = (
 @pytest.fixture(scope='module')
 def process() -> Iterator[subprocess.Popen[str]]:
     with start_node('--ros-args', '-p', 'paper_tries:=100000') as process:
-        try:
-            wait_until_ready(process)
-            yield process
-            process.send_signal(signal.SIGTERM)
-            assert process.wait(timeout=DEADLINE) == 0
-        finally:
-            process.kill()
+        wait_until_ready(process)
+        yield process
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(timeout=DEADLINE) == 0
 
 
 @pytest.fixture(scope='module')

@@ -37,14 +37,11 @@ PHOTO = (
 @pytest.fixture(scope='module')
 def process() -> Iterator[subprocess.Popen[str]]:
     with start_node() as process:
-        try:
-            wait_until_ready(process)
-            yield process
-            assert process.poll() is None, 'the node did not outlive the tests'
-            process.send_signal(signal.SIGTERM)
-            assert process.wait(timeout=DEADLINE) == 0
-        finally:
-            process.kill()
+        wait_until_ready(process)
+        yield process
+        assert process.poll() is None, 'the node did not outlive the tests'
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(timeout=DEADLINE) == 0
 
 
 @pytest.fixture(scope='module')

@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +27,7 @@ from rclpy.parameter import Parameter
 
 from task_planner_node.node import NAME, TaskPlannerNode
 from task_planner_node.outcomes import Outcome
-from tests.support.processes import output_of
+from tests.support.processes import output_of, running
 from tests.support.spinning import DOMAIN, PATIENCE, spinning
 from tests.support.tiny_motion_planner import tiny_motion_planner
 
@@ -243,27 +244,21 @@ def test_a_time_budget_that_is_none_is_refused(client: MissionClient, time_budge
     assert f'not {time_budget:g}' in diagnostic.message
 
 
-def run_node(*arguments: str) -> subprocess.Popen[str]:
-    environment = {**os.environ, 'ROS_DOMAIN_ID': str(DOMAIN)}
-    return subprocess.Popen(
+def run_node(*arguments: str) -> AbstractContextManager[subprocess.Popen[str]]:
+    return running(
         [sys.executable, '-X', 'faulthandler', '-m', f'{NAME}.node', *arguments],
-        env=environment,
-        cwd=Path(__file__).parents[1],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        start_new_session=True,
+        {**os.environ, 'ROS_DOMAIN_ID': str(DOMAIN)},
     )
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_stops_the_process_without_a_traceback(number: signal.Signals) -> None:
-    process = run_node()
-    assert process.stdout is not None
-    line = process.stdout.readline()
-    assert 'ready' in line, line + process.stdout.read()
-    process.send_signal(number)
-    rest = output_of(process, PATIENCE)
+    with run_node() as process:
+        assert process.stdout is not None
+        line = process.stdout.readline()
+        assert 'ready' in line, line + process.stdout.read()
+        process.send_signal(number)
+        rest = output_of(process, PATIENCE)
     assert process.returncode == 0
     assert rest == ''
 
@@ -278,8 +273,8 @@ def test_a_signal_stops_the_process_without_a_traceback(number: signal.Signals) 
     ],
 )
 def test_the_command_line(arguments: tuple[str, ...], code: int, text: str) -> None:
-    process = run_node(*arguments)
-    output = output_of(process, PATIENCE)
+    with run_node(*arguments) as process:
+        output = output_of(process, PATIENCE)
     assert process.returncode == code
     assert text in output
     assert 'Traceback' not in output
