@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from task_planner_node.oracle import INVALID_CODES, Advice, AdviceQuery, Purpose, Token
 from task_planner_node.search.geometry import Geometry
+from task_planner_node.search.itinerary import Order
 from task_planner_node.search.partial_plan import Whereabouts
+from task_planner_node.search.precedences import Pair
 from task_planner_node.search.tours import Stop
 
 MOST_ADVISED = 1000
@@ -37,6 +39,38 @@ class Advisor:
             return self.order(Purpose.NEAREST_FIRST, where, texts, ask)
         stops = self._known[purpose, where.start] = _stops(wanted, advice)
         return stops
+
+
+def tour_through(
+    geometry: Geometry,
+    where: Whereabouts,
+    texts: Sequence[str],
+    stops: Order,
+    purpose: Purpose,
+    pairs: Iterable[Pair] = (),
+    effort: int = 0,
+) -> Order | None:
+    """The ``stops``, whose ground texts are told by index, in the order and with the attitudes that are advised.
+
+    Of ``pairs`` of indices the first comes before the second; those of other stops count for nothing.  A stop whose
+    attitude is not advised keeps its own.  None where there are too many stops, or where no tour is known.
+    """
+    if not 1 <= len(stops) <= MOST_ADVISED:
+        return None
+    places = {index: number for number, (index, _) in enumerate(stops)}
+    query = AdviceQuery(
+        where.start,
+        tuple([texts[index] for index, _ in stops]),
+        purpose,
+        tuple([(places[a], places[b]) for a, b in pairs if a in places and b in places]),
+        tuple([end for _, end in stops]),
+        effort,
+    )
+    advice = geometry.advise(query, where.lineage)
+    if sorted(advice.order) != list(range(len(stops))):
+        return None
+    ends = advice.ends if len(advice.ends) == len(stops) else [None] * len(stops)
+    return [(stops[n][0], ends[n] if ends[n] is not None else stops[n][1]) for n in advice.order]
 
 
 def _stops(wanted: Sequence[str], advice: Advice) -> dict[str, Stop]:

@@ -7,8 +7,8 @@ from functools import cached_property
 from random import Random
 
 from task_planner_node.language.model import TaskNetwork
-from task_planner_node.oracle import AdviceQuery, Purpose, Token
-from task_planner_node.search.advice import MOST_ADVISED
+from task_planner_node.oracle import AdviceQuery, Purpose
+from task_planner_node.search.advice import MOST_ADVISED, tour_through
 from task_planner_node.search.arranging import MOST_ARRANGED, Arranging, moved
 from task_planner_node.search.domain import CompiledDomain
 from task_planner_node.search.geometry import Geometry
@@ -142,8 +142,7 @@ class Improvement:
         if itinerary is None or not itinerary.runs or len(itinerary.texts) > MOST_ARRANGED:
             return
         run = itinerary.runs[-1]
-        start = itinerary.motions[run.start].start
-        where = Whereabouts(start, start, 0.0)
+        where = _beginning(itinerary, run)
         alternatives = self._rehearsal.alternatives
         ends = {itinerary.texts[i]: end for i, end in itinerary.order if end is not None}
         lengths = expected_lengths(self._geometry, where, itinerary, alternatives, ends)
@@ -156,12 +155,11 @@ class Improvement:
             itinerary.texts
         ):
             return
-        known = [index for index in run if index not in found.open]
-        texts = tuple([found.texts[index] for index in known])
-        query = AdviceQuery(start, texts, Purpose.FIXED_ORDER, effort=effort)
-        advice = self._geometry.advise(query, start)
-        if len(advice.ends) == len(known):
-            better = dict(zip(known, advice.ends, strict=True))
+        known = [(index, None) for index in run if index not in found.open]
+        purpose = Purpose.FIXED_ORDER
+        order = tour_through(self._geometry, where, found.texts, known, purpose, effort=effort)
+        if order is not None:
+            better = dict(order)
             self._try(found, [(index, better.get(index)) for index in range(len(found.texts))])
 
     def _vary(self, effort: int) -> None:
@@ -205,39 +203,13 @@ class Improvement:
     ) -> bool:
         order = list(itinerary.order)
         for run in itinerary.runs:
-            if 1 < len(run) <= MOST_ADVISED:
-                order[run.start : run.stop] = self._advised(itinerary, run, purpose, pairs, effort)
+            if len(run) > 1:
+                stops = order[run.start : run.stop]
+                where = _beginning(itinerary, run)
+                texts = itinerary.texts
+                better = tour_through(self._geometry, where, texts, stops, purpose, pairs, effort)
+                order[run.start : run.stop] = better or stops
         return self._try(itinerary, order)
-
-    def _advised(
-        self,
-        itinerary: Itinerary,
-        run: range,
-        purpose: Purpose,
-        pairs: Sequence[tuple[int, int]],
-        effort: int,
-    ) -> Order:
-        """The stops of a run as the motion planner would make them."""
-        order = itinerary.order[run.start : run.stop]
-        start = itinerary.motions[run.start].start
-        inside = [(a - run.start, b - run.start) for a, b in pairs if a in run and b in run]
-        advice = self._geometry.advise(
-            AdviceQuery(
-                start,
-                tuple([itinerary.texts[index] for index in run]),
-                purpose,
-                tuple(inside),
-                tuple([end for _, end in order]),
-                effort,
-            ),
-            start,
-        )
-        if sorted(advice.order) != list(range(len(run))):
-            return order
-        ends: Sequence[Token | None] = advice.ends
-        if len(ends) != len(run):
-            ends = [None] * len(run)
-        return [(run[i], ends[i] if ends[i] is not None else order[i][1]) for i in advice.order]
 
     def _try(self, itinerary: Itinerary, order: Order) -> bool:
         """Search along an order of the stops; whether that led to a better plan."""
@@ -269,3 +241,9 @@ class Improvement:
         if best is None:
             return None
         return Itinerary(best.log, self._root, self._domain.recursive)
+
+
+def _beginning(itinerary: Itinerary, run: range) -> Whereabouts:
+    """Where the robots are before a run of stops."""
+    start = itinerary.motions[run.start].start
+    return Whereabouts(start, start, 0.0)

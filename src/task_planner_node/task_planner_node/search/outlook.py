@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from task_planner_node.oracle import AdviceQuery, Purpose, Token
-from task_planner_node.search.advice import MOST_ADVISED
+from task_planner_node.oracle import Purpose, Token
+from task_planner_node.search.advice import tour_through
 from task_planner_node.search.arranging import MOST_ARRANGED, Arranging
 from task_planner_node.search.itinerary import Itinerary, Order, without_ends
 from task_planner_node.search.lengths import expected_lengths
@@ -79,20 +79,11 @@ class Outlook:
         self, itinerary: Itinerary, where: Whereabouts, purpose: Purpose, pairs: Iterable[Pair] = ()
     ) -> Order | None:
         """The stops in the order of the tour that is advised, without those that it does not reach or that are open."""
-        stops = [index for index in itinerary.first if index not in itinerary.open]
-        places = {index: number for number, index in enumerate(stops)}
-        if not 2 <= len(stops) <= MOST_ADVISED:
+        stops = [(index, None) for index in itinerary.first if index not in itinerary.open]
+        if len(stops) < 2:
             return None
-        query = AdviceQuery(
-            where.start,
-            tuple([itinerary.texts[index] for index in stops]),
-            purpose,
-            tuple([(places[a], places[b]) for a, b in pairs if a in places and b in places]),
-        )
-        advice = self._geometry.advise(query, where.lineage)
-        if sorted(advice.order) != list(range(len(stops))) or len(advice.ends) != len(stops):
-            return None
-        return [(stops[n], advice.ends[n]) for n in advice.order if advice.ends[n] is not None]
+        order = tour_through(self._geometry, where, itinerary.texts, stops, purpose, pairs)
+        return [stop for stop in order or () if stop[1] is not None] or None
 
     def _arranged(
         self, first: Itinerary, proposed: Order | None, rehearsal: Rehearsal, where: Whereabouts
