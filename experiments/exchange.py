@@ -37,7 +37,7 @@ def motion_planner(namespace: str, world: Path) -> Iterator[int]:
     """The motion planner's node with a world, in a process of its own; gives its id."""
     arguments = ['--ros-args', '-r', f'__ns:=/{namespace}', '-p', f'world:={world}']
     process = subprocess.Popen(
-        [sys.executable, '-m', 'motion_planner_node.node', *arguments],
+        [sys.executable, '-m', 'motion_planner_node', *arguments],
         stderr=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         start_new_session=True,

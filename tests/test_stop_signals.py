@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import subprocess
 import sys
 import threading
 from collections.abc import Iterator
@@ -17,13 +18,26 @@ import task_planner_node.signals
 
 #: Each node has its own copy, as the packages depend on messages alone.
 COPIES = [interface_node.signals, motion_planner_node.signals, task_planner_node.signals]
+NODES = [copy.__name__.split('.')[0] for copy in COPIES]
+INTERRUPTED_IMPORT = """
+import signal, sys
+
+class Interrupter:
+    def find_spec(self, name, path=None, target=None):
+        if name == 'rclpy':
+            signal.raise_signal(signal.SIGINT)
+
+sys.meta_path.insert(0, Interrupter())
+from {name}.__main__ import main
+sys.exit(main())
+"""
 #: [s]
 PATIENCE = 20.0
 #: Instructions; more than the main loop takes twice.
 TWO_ROUNDS = 200
 
 
-@pytest.fixture(params=COPIES, ids=lambda module: module.__name__.split('.')[0])
+@pytest.fixture(params=COPIES, ids=NODES)
 def signals(request: pytest.FixtureRequest) -> Iterator[Any]:
     before = {number: signal.getsignal(number) for number in request.param.STOPPING}
     try:
@@ -34,17 +48,24 @@ def signals(request: pytest.FixtureRequest) -> Iterator[Any]:
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
-def test_while_a_node_starts_the_first_signal_interrupts_it(
+def test_the_first_signal_interrupts_where_that_is_asked_for(
     signals: Any, number: signal.Signals
 ) -> None:
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(KeyboardInterrupt), signals.interrupting():
         signal.raise_signal(number)
     signal.raise_signal(number)  # what is cleaned up then is not interrupted
 
 
+def test_a_signal_from_before_interrupts_too(signals: Any) -> None:
+    signal.raise_signal(signal.SIGTERM)
+    with pytest.raises(KeyboardInterrupt), signals.interrupting():
+        pytest.fail('this should not be reached')
+
+
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
-def test_afterwards_it_is_waited_for(signals: Any, number: signal.Signals) -> None:
-    signals.hold()
+def test_elsewhere_it_is_waited_for(signals: Any, number: signal.Signals) -> None:
+    with signals.interrupting():
+        pass
     assert not signals.wait(0.01)
     signal.raise_signal(number)
     assert signals.wait(0.0)
@@ -62,14 +83,25 @@ def test_an_interrupt_that_nobody_hears_is_noted(signals: Any) -> None:
             except KeyboardInterrupt:
                 return
 
-    Forgotten()
-    signals.hold()
+    with signals.interrupting():
+        Forgotten()
     assert signals.wait(0.0)
+
+
+@pytest.mark.parametrize('name', NODES)
+def test_a_signal_in_the_middle_of_the_imports_stops_a_node_without_a_word(name: str) -> None:
+    done = subprocess.run(
+        [sys.executable, '-c', INTERRUPTED_IMPORT.format(name=name)],
+        capture_output=True,
+        text=True,
+        timeout=3 * PATIENCE,
+        check=False,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, '', '')
 
 
 def test_no_place_in_the_main_loop_is_a_wrong_one(signals: Any) -> None:
     """One signal at each instruction in turn, of the loop and of the library that it calls."""
-    signals.hold()
     met = set()
     for instruction in range(1, TWO_ROUNDS):
         stopped = threading.Event()

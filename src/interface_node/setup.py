@@ -33,7 +33,7 @@ setup(
     license='Apache-2.0',
     entry_points={
         'console_scripts': [
-            f'{package_name} = {package_name}.node:main',
+            f'{package_name} = {package_name}.__main__:main',
             f'geohtn = {package_name}.command_line.main:main',
         ]
     },

@@ -17,5 +17,5 @@ setup(
     ],
     zip_safe=False,
     license='Apache-2.0',
-    entry_points={'console_scripts': [f'{package_name} = {package_name}.node:main']},
+    entry_points={'console_scripts': [f'{package_name} = {package_name}.__main__:main']},
 )

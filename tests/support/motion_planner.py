@@ -32,7 +32,7 @@ def start_node(*arguments: str) -> AbstractContextManager[subprocess.Popen[str]]
         'PYTHONUNBUFFERED': '1',
     }
     return running(
-        [sys.executable, '-X', 'faulthandler', '-m', 'motion_planner_node.node', *arguments],
+        [sys.executable, '-X', 'faulthandler', '-m', 'motion_planner_node', *arguments],
         environment,
     )
 

@@ -227,30 +227,30 @@ class InterfaceNode(Node):
             outputs.record_event(data)
 
 
-def main(arguments: list[str] | None = None) -> int:
-    """Run the node until it is told to stop; 0 then, 2 when it was started wrongly."""
-    arguments = sys.argv if arguments is None else arguments
-    own = remove_ros_args(arguments)[1:]
-    if own:
-        wanted = own[0] in ('--help', '-h')
-        print(USAGE if wanted else f'unknown argument {own[0]}\n\n{USAGE}', end='')
-        return 0 if wanted else 2
-    rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
-    signals = StopSignals()
+def run(arguments: list[str], signals: StopSignals) -> int:
+    """Run the node until a signal comes; 0 then, 2 when it was started wrongly."""
     try:
-        _serve(signals)
+        own = remove_ros_args(arguments)[1:]
+        if own:
+            return _usage(own)
+        rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
+    except RuntimeError as error:  # how rcl refuses its arguments
+        return _refuse(f'wrong ROS arguments: {error}')
+    try:
+        with signals.interrupting():
+            node = InterfaceNode()
     except KeyboardInterrupt:
         return 0
     except ValueError as error:
-        print(f'interface_node: {error}', file=sys.stderr)
-        return 2
+        return _refuse(error)
+    else:
+        _serve(node, signals)
+        return 0
     finally:
         rclpy.shutdown()
-    return 0
 
 
-def _serve(signals: StopSignals) -> None:
-    node = InterfaceNode()
+def _serve(node: InterfaceNode, signals: StopSignals) -> None:
     executor = MultiThreadedExecutor(num_threads=4)
     executor.add_node(node)
     stopped = threading.Event()
@@ -260,7 +260,6 @@ def _serve(signals: StopSignals) -> None:
             executor.spin_once(timeout_sec=0.5)
 
     spinning = threading.Thread(target=spin)
-    signals.hold()
     try:
         spinning.start()
         node.get_logger().info('ready')
@@ -275,5 +274,14 @@ def _serve(signals: StopSignals) -> None:
         node.destroy_node()
 
 
-if __name__ == '__main__':
-    sys.exit(main())
+def _usage(arguments: list[str]) -> int:
+    if arguments[0] in {'--help', '-h'}:
+        print(USAGE, end='')
+        return 0
+    print(f'interface_node: unknown argument {arguments[0]}\n\n{USAGE}', file=sys.stderr)
+    return 2
+
+
+def _refuse(reason: object) -> int:
+    print(f'interface_node: {reason}', file=sys.stderr)
+    return 2

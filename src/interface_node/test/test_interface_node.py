@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import groupby
@@ -26,7 +27,8 @@ from tests.support.obedient_planners import (
     ObedientTaskPlanner,
     never,
 )
-from tests.support.spinning import DOMAIN, spinning
+from tests.support.processes import output_of, running
+from tests.support.spinning import DOMAIN, PATIENCE, spinning
 
 
 @dataclass
@@ -119,6 +121,23 @@ def test_without_a_motion_planner_there_is_no_replay(
     monkeypatch.setattr('interface_node.replay_node._read', lambda _: (world, []))
     with pytest.raises(MotionPlannerUnavailable, match='is not running'):
         replay(tmp_path / 'no.mcap')
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'code', 'text'),
+    [
+        (['--help'], 0, 'usage: interface_node'),
+        (['--nonsense'], 2, 'interface_node: unknown argument --nonsense'),
+        (['--ros-args', '-p', 'rounds'], 2, 'wrong ROS arguments: Failed to parse'),
+        (['--ros-args', '-p', 'path_spacing:=far'], 2, 'path_spacing'),
+    ],
+)
+def test_the_command_line(arguments: list[str], code: int, text: str) -> None:
+    with running([sys.executable, '-m', 'interface_node', *arguments]) as process:
+        output = output_of(process, PATIENCE)
+    assert process.returncode == code
+    assert text in output
+    assert 'Traceback' not in output
 
 
 def test_missing_planners_are_named_within_five_seconds(client: Client, tmp_path: Path) -> None:

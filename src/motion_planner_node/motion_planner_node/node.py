@@ -221,31 +221,31 @@ class MotionPlannerNode(Node):
         )
 
 
-def main(arguments: list[str] | None = None) -> int:
-    """Run the node until it is told to stop; 0 then, 2 when it was started wrongly."""
-    arguments = sys.argv if arguments is None else arguments
+def run(arguments: list[str], signals: StopSignals) -> int:
+    """Run the node until a signal comes; 0 then, 2 when it was started wrongly."""
     try:
         own = remove_ros_args(arguments)[1:]
         if own:
             return _usage(own)
         rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
     except RuntimeError as error:  # how rcl refuses its arguments
-        return _refuse(error)
-    signals = StopSignals()
+        return _refuse(f'wrong ROS arguments: {error}')
     try:
-        load_plugins()
-        _serve(signals)
+        with signals.interrupting():
+            load_plugins()
+            node = MotionPlannerNode()
     except KeyboardInterrupt:
-        pass
+        return 0
     except (ParameterError, PluginError, MotionPlannerError) as error:
         return _refuse(error)
+    else:
+        _serve(node, signals)
+        return 0
     finally:
         rclpy.shutdown()
-    return 0
 
 
-def _serve(signals: StopSignals) -> None:
-    node = MotionPlannerNode()
+def _serve(node: MotionPlannerNode, signals: StopSignals) -> None:
     executor = RelayExecutor()
     executor.add_node(node)
     # What is there by now stays: to look at it again and again takes a tenth of a second each time.
@@ -257,7 +257,6 @@ def _serve(signals: StopSignals) -> None:
             executor.spin_once(timeout_sec=0.5)
 
     spinning = [threading.Thread(target=spin) for _ in range(THREADS)]
-    signals.hold()
     try:
         for thread in spinning:
             thread.start()
@@ -281,10 +280,6 @@ def _usage(arguments: list[str]) -> int:
     return 2
 
 
-def _refuse(error: Exception) -> int:
-    print(f'motion_planner_node: {error}', file=sys.stderr)
+def _refuse(reason: object) -> int:
+    print(f'motion_planner_node: {reason}', file=sys.stderr)
     return 2
-
-
-if __name__ == '__main__':
-    sys.exit(main())

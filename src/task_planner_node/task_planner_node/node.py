@@ -228,32 +228,34 @@ def _options(request: PlanTasks.Goal, parameters: Parameters) -> Options:
     )
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the node until SIGINT or SIGTERM; the exit code is 2 for bad arguments or parameters."""
-    words = list(sys.argv if arguments is None else [NAME, *arguments])
+def run(arguments: Sequence[str], signals: StopSignals) -> int:
+    """Run the node until a signal comes; the exit code is 2 for bad arguments or parameters."""
     parser = argparse.ArgumentParser(
         prog=NAME, description=HELP, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.parse_args(remove_ros_args(words)[1:])
     context = Context()
-    rclpy.init(args=words, context=context, signal_handler_options=SignalHandlerOptions.NO)
-    signals = StopSignals()
     try:
-        return _serve(context, signals)
+        parser.parse_args(remove_ros_args(arguments)[1:])
+        rclpy.init(args=arguments, context=context, signal_handler_options=SignalHandlerOptions.NO)
+    except RuntimeError as error:  # how rcl refuses its arguments
+        return _refuse(f'wrong ROS arguments: {error}')
+    try:
+        with signals.interrupting():
+            load_plugins()
+            node = TaskPlannerNode(context)
     except KeyboardInterrupt:
+        return 0
+    except (PluginError, ValueError) as error:
+        return _refuse(error)
+    else:
+        _serve(node, signals)
         return 0
     finally:
         rclpy.shutdown(context=context)
 
 
-def _serve(context: Context, signals: StopSignals) -> int:
-    try:
-        load_plugins()
-        node = TaskPlannerNode(context)
-    except (PluginError, ValueError) as error:
-        print(f'{NAME}: {error}', file=sys.stderr)
-        return 2
-    executor = MultiThreadedExecutor(num_threads=4, context=context)
+def _serve(node: TaskPlannerNode, signals: StopSignals) -> None:
+    executor = MultiThreadedExecutor(num_threads=4, context=node.context)
     executor.add_node(node)
 
     stopped = threading.Event()
@@ -263,7 +265,6 @@ def _serve(context: Context, signals: StopSignals) -> int:
             executor.spin_once(timeout_sec=0.5)
 
     thread = threading.Thread(target=spin)
-    signals.hold()
     try:
         thread.start()
         node.get_logger().info('ready')
@@ -276,8 +277,8 @@ def _serve(context: Context, signals: StopSignals) -> int:
         thread.join()
         executor.shutdown(timeout_sec=2.0)
         node.close()
-    return 0
 
 
-if __name__ == '__main__':
-    sys.exit(main())
+def _refuse(reason: object) -> int:
+    print(f'{NAME}: {reason}', file=sys.stderr)
+    return 2

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
 from queue import Empty, SimpleQueue
 from types import FrameType
 
@@ -10,22 +12,32 @@ STOPPING = (signal.SIGINT, signal.SIGTERM)
 
 
 class StopSignals:
-    """Raises KeyboardInterrupt in the main thread at the first signal; after :meth:`hold` notes it.
+    """Notes the signals, and raises KeyboardInterrupt in the main thread only where that is asked for.
 
-    Once there are other threads nothing may be raised: an exception inside an Event leaves its lock
+    An exception in the middle of an import leaves it half done; one inside an Event leaves its lock
     taken, and one inside ``Thread.is_alive`` takes a running thread for ended (Python before 3.13).
     Make one in the main thread, and wait there: inside ROS it would hear nothing.
     """
 
     def __init__(self) -> None:
         self._received: SimpleQueue[int] = SimpleQueue()  # its put may interrupt its own get
-        self._raises = True
+        self._raises = False
         for number in STOPPING:
             signal.signal(number, self._receive)
 
-    def hold(self) -> None:
-        """From now on signals are noted for :meth:`wait`, also one whose exception got lost."""
-        self._raises = False
+    @contextmanager
+    def interrupting(self) -> Iterator[None]:
+        """Inside the block the first signal raises KeyboardInterrupt, also one from before it.
+
+        For long work without other threads.
+        """
+        self._raises = True
+        try:
+            if not self._received.empty():
+                raise KeyboardInterrupt
+            yield
+        finally:
+            self._raises = False
 
     def wait(self, timeout: float) -> bool:
         """Wait for a signal, `timeout` seconds at most; True when one has come."""

@@ -246,7 +246,7 @@ def test_a_time_budget_that_is_none_is_refused(client: MissionClient, time_budge
 
 def run_node(*arguments: str) -> AbstractContextManager[subprocess.Popen[str]]:
     return running(
-        [sys.executable, '-X', 'faulthandler', '-m', f'{NAME}.node', *arguments],
+        [sys.executable, '-X', 'faulthandler', '-m', NAME, *arguments],
         {**os.environ, 'ROS_DOMAIN_ID': str(DOMAIN)},
     )
 
@@ -270,6 +270,8 @@ def test_a_signal_stops_the_process_without_a_traceback(number: signal.Signals) 
         (('--ros-args', '-p', 'max_depth:=3'), 2, 'from 100 to 2e+07'),
         (('--ros-args', '-p', 'time_budget:=soon'), 2, "not 'soon'"),
         (('--nonsense',), 2, 'unrecognized'),
+        (('--ros-args', '--nonsense'), 2, "wrong ROS arguments: ['--nonsense']"),
+        (('--ros-args', '-p', 'rounds'), 2, 'wrong ROS arguments: Failed to parse'),
     ],
 )
 def test_the_command_line(arguments: tuple[str, ...], code: int, text: str) -> None:
