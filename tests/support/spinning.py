@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from typing import Any
 
 import rclpy
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 
 #: Of this process alone; above 101 domains share ports with other programs.
@@ -35,9 +35,8 @@ def spinning(
     stopped = threading.Event()
 
     def spin() -> None:
-        with suppress(ExternalShutdownException):
-            while not stopped.is_set():
-                executor.spin_once()
+        while not stopped.is_set():
+            executor.spin_once()
 
     thread = threading.Thread(target=spin)
     thread.start()

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from threading import Event, Thread
 
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
 
 class BackgroundExecutor:
-    """Runs the callbacks of `node` until it is closed, or until the node's context is shut down.
+    """Runs the callbacks of `node` until it is closed; close it before the node and its context.
 
     The thread ends before the executor is shut down: that destroys the guard that would wake it, and
     a thread that was about to wait would do so for ever.
@@ -31,6 +30,5 @@ class BackgroundExecutor:
         self._executor.shutdown()
 
     def _spin(self) -> None:
-        with suppress(ExternalShutdownException):
-            while not self._closed.is_set():
-                self._executor.spin_once()
+        while not self._closed.is_set():
+            self._executor.spin_once()

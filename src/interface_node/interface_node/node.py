@@ -228,29 +228,28 @@ class InterfaceNode(Node):
 
 
 def run(arguments: list[str], signals: StopSignals) -> int:
-    """Run the node until a signal comes; 0 then, 2 when it was started wrongly."""
+    """Run the node until a signal comes; 0 then, 1 when it ends by itself, 2 when it was started wrongly."""
     try:
         own = remove_ros_args(arguments)[1:]
-        if own:
-            return _usage(own)
-        rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
-    except RuntimeError as error:  # how rcl refuses its arguments
+    except RuntimeError as error:
         return _refuse(f'wrong ROS arguments: {error}')
+    if own:
+        return _usage(own)
     try:
-        with signals.interrupting():
-            node = InterfaceNode()
-    except KeyboardInterrupt:
-        return 0
+        rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
+    except RuntimeError as error:
+        return _refuse(f'ROS does not start: {error}')
+    try:
+        node = InterfaceNode()
     except ValueError as error:
         return _refuse(error)
     else:
-        _serve(node, signals)
-        return 0
+        return _serve(node, signals)
     finally:
         rclpy.shutdown()
 
 
-def _serve(node: InterfaceNode, signals: StopSignals) -> None:
+def _serve(node: InterfaceNode, signals: StopSignals) -> int:
     executor = MultiThreadedExecutor(num_threads=4)
     executor.add_node(node)
     stopped = threading.Event()
@@ -260,11 +259,10 @@ def _serve(node: InterfaceNode, signals: StopSignals) -> None:
             executor.spin_once(timeout_sec=0.5)
 
     spinning = threading.Thread(target=spin)
+    spinning.start()
     try:
-        spinning.start()
         node.get_logger().info('ready')
-        while spinning.is_alive() and not signals.wait(0.5):
-            pass
+        return signals.exit_code(spinning.is_alive)
     finally:
         node.finish(2.0)
         stopped.set()

@@ -29,7 +29,7 @@ def node() -> Iterator[Node]:
     node = Node('background', context=context, start_parameter_services=False)
     yield node
     node.destroy_node()
-    rclpy.try_shutdown(context=context)
+    rclpy.shutdown(context=context)
 
 
 def closes(executor: BackgroundExecutor) -> bool:
@@ -68,9 +68,3 @@ def test_it_ends_although_it_is_closed_just_before_it_waits(
     later.start()
     assert closes(executor)
     later.join()
-
-
-def test_it_ends_with_the_context_of_its_node(node: Node) -> None:
-    executor = BackgroundExecutor(node)
-    rclpy.shutdown(context=node.context)
-    assert closes(executor)

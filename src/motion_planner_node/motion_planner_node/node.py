@@ -222,14 +222,17 @@ class MotionPlannerNode(Node):
 
 
 def run(arguments: list[str], signals: StopSignals) -> int:
-    """Run the node until a signal comes; 0 then, 2 when it was started wrongly."""
+    """Run the node until a signal comes; 0 then, 1 when it ends by itself, 2 when it was started wrongly."""
     try:
         own = remove_ros_args(arguments)[1:]
-        if own:
-            return _usage(own)
-        rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
-    except RuntimeError as error:  # how rcl refuses its arguments
+    except RuntimeError as error:
         return _refuse(f'wrong ROS arguments: {error}')
+    if own:
+        return _usage(own)
+    try:
+        rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
+    except RuntimeError as error:
+        return _refuse(f'ROS does not start: {error}')
     try:
         with signals.interrupting():
             load_plugins()
@@ -239,13 +242,12 @@ def run(arguments: list[str], signals: StopSignals) -> int:
     except (ParameterError, PluginError, MotionPlannerError) as error:
         return _refuse(error)
     else:
-        _serve(node, signals)
-        return 0
+        return _serve(node, signals)
     finally:
         rclpy.shutdown()
 
 
-def _serve(node: MotionPlannerNode, signals: StopSignals) -> None:
+def _serve(node: MotionPlannerNode, signals: StopSignals) -> int:
     executor = RelayExecutor()
     executor.add_node(node)
     # What is there by now stays: to look at it again and again takes a tenth of a second each time.
@@ -261,13 +263,13 @@ def _serve(node: MotionPlannerNode, signals: StopSignals) -> None:
         for thread in spinning:
             thread.start()
         node.get_logger().info('ready')
-        while all(thread.is_alive() for thread in spinning) and not signals.wait(0.5):
-            pass
+        return signals.exit_code(lambda: all(thread.is_alive() for thread in spinning))
     finally:
         node.finish()
         executor.wake()
         for thread in spinning:
-            thread.join()
+            if thread.ident is not None:
+                thread.join()
         executor.shutdown()
         node.destroy_node()
 

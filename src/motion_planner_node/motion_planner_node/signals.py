@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from queue import Empty, SimpleQueue
 from types import FrameType
 
 STOPPING = (signal.SIGINT, signal.SIGTERM)
+#: [s] between two looks whether the node is alive; a signal that came to another thread is heard then.
+PERIOD = 0.5
 
 
 class StopSignals:
@@ -20,7 +22,8 @@ class StopSignals:
     """
 
     def __init__(self) -> None:
-        self._received: SimpleQueue[int] = SimpleQueue()  # its put may interrupt its own get
+        # Unlike a Queue or an Event it may be put to by a handler that interrupts its get.
+        self._received: SimpleQueue[int] = SimpleQueue()
         self._raises = False
         for number in STOPPING:
             signal.signal(number, self._receive)
@@ -29,7 +32,7 @@ class StopSignals:
     def interrupting(self) -> Iterator[None]:
         """Inside the block the first signal raises KeyboardInterrupt, also one from before it.
 
-        For long work without other threads.
+        For long work that no other thread waits for.
         """
         self._raises = True
         try:
@@ -39,13 +42,15 @@ class StopSignals:
         finally:
             self._raises = False
 
-    def wait(self, timeout: float) -> bool:
-        """Wait for a signal, `timeout` seconds at most; True when one has come."""
-        try:
-            self._received.get(timeout=timeout)
-        except Empty:
-            return False
-        return True
+    def exit_code(self, is_alive: Callable[[], bool]) -> int:
+        """Wait while a node is alive: 0 when a signal came, 1 when the node ended without one."""
+        while is_alive():
+            try:
+                self._received.get(timeout=PERIOD)
+            except Empty:
+                continue
+            return 0
+        return 1
 
     def _receive(self, number: int, _frame: FrameType | None) -> None:
         self._received.put(number)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import count
 from math import inf
@@ -16,7 +15,7 @@ from geohtn_msgs.msg import GeometricRequest
 from geohtn_msgs.srv import Advise, CancelRequest, CheckPreconditions, SatisfyPreconditions
 from rclpy.client import Client
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
 from task_planner_node.conversions import (
@@ -59,9 +58,8 @@ class MotionPlannerClient(Node):
         self._thread.start()
 
     def _spin(self) -> None:
-        with suppress(ExternalShutdownException):
-            while not self._closed.is_set():
-                self._spinner.spin_once()
+        while not self._closed.is_set():
+            self._spinner.spin_once()
 
     def close(self) -> None:
         """Stop the thread, then destroy what it waits on: before, it could wait for ever."""

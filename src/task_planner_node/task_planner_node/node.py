@@ -229,32 +229,35 @@ def _options(request: PlanTasks.Goal, parameters: Parameters) -> Options:
 
 
 def run(arguments: Sequence[str], signals: StopSignals) -> int:
-    """Run the node until a signal comes; the exit code is 2 for bad arguments or parameters."""
+    """Run the node until a signal comes; 0 then, 1 when it ends by itself, 2 when it was started wrongly."""
     parser = argparse.ArgumentParser(
         prog=NAME, description=HELP, formatter_class=argparse.RawDescriptionHelpFormatter
     )
+    try:
+        own = remove_ros_args(arguments)[1:]
+    except RuntimeError as error:
+        return _refuse(f'wrong ROS arguments: {error}')
+    parser.parse_args(own)
     context = Context()
     try:
-        parser.parse_args(remove_ros_args(arguments)[1:])
         rclpy.init(args=arguments, context=context, signal_handler_options=SignalHandlerOptions.NO)
-    except RuntimeError as error:  # how rcl refuses its arguments
-        return _refuse(f'wrong ROS arguments: {error}')
+    except RuntimeError as error:
+        return _refuse(f'ROS does not start: {error}')
     try:
         with signals.interrupting():
             load_plugins()
-            node = TaskPlannerNode(context)
+        node = TaskPlannerNode(context)
     except KeyboardInterrupt:
         return 0
     except (PluginError, ValueError) as error:
         return _refuse(error)
     else:
-        _serve(node, signals)
-        return 0
+        return _serve(node, signals)
     finally:
         rclpy.shutdown(context=context)
 
 
-def _serve(node: TaskPlannerNode, signals: StopSignals) -> None:
+def _serve(node: TaskPlannerNode, signals: StopSignals) -> int:
     executor = MultiThreadedExecutor(num_threads=4, context=node.context)
     executor.add_node(node)
 
@@ -265,11 +268,10 @@ def _serve(node: TaskPlannerNode, signals: StopSignals) -> None:
             executor.spin_once(timeout_sec=0.5)
 
     thread = threading.Thread(target=spin)
+    thread.start()
     try:
-        thread.start()
         node.get_logger().info('ready')
-        while thread.is_alive() and not signals.wait(0.5):
-            pass
+        return signals.exit_code(thread.is_alive)
     finally:
         node.finish()
         stopped.set()

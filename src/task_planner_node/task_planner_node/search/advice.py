@@ -63,7 +63,7 @@ def tour_through(
         tuple([texts[index] for index, _ in stops]),
         purpose,
         tuple([(places[a], places[b]) for a, b in pairs if a in places and b in places]),
-        tuple([end for _, end in stops]),
+        tuple([end for _, end in stops]) if any(end is not None for _, end in stops) else (),
         effort,
     )
     advice = geometry.advise(query, where.lineage)

@@ -158,9 +158,8 @@ class Improvement:
         known = [(index, None) for index in run if index not in found.open]
         purpose = Purpose.FIXED_ORDER
         order = tour_through(self._geometry, where, found.texts, known, purpose, effort=effort)
-        if order is not None:
-            better = dict(order)
-            self._try(found, [(index, better.get(index)) for index in range(len(found.texts))])
+        better = dict(order or ())
+        self._try(found, [(index, better.get(index)) for index in range(len(found.texts))])
 
     def _vary(self, effort: int) -> None:
         """Do tasks at other times where only the search itself tells what a motion comes to.
