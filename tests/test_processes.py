@@ -77,12 +77,16 @@ def test_missing_nodes_are_named_within_five_seconds() -> None:
 def test_a_missing_motion_planner_is_named() -> None:
     namespace = f'geohtn_half_{os.getpid()}'
     with (
-        running(node_command('interface_node', namespace)),
-        running(node_command('task_planner_node', namespace)),
+        running(node_command('interface_node', namespace)) as interface,
+        running(node_command('task_planner_node', namespace)) as task_planner,
     ):
+        for process in (interface, task_planner):
+            assert process.stdout is not None
+            assert any('ready' in line for line in process.stdout)
         done = geohtn('plan', ROVER, '--namespace', namespace)
     assert done.returncode == 3, done.stdout + done.stderr
-    assert 'motion_planner_node' in done.stdout + done.stderr
+    assert 'motion_planner_node is not running: start it with `' in done.stdout + done.stderr
+    assert 'task_planner_node is' not in done.stdout + done.stderr
 
 
 def test_ctrl_c_ends_a_search(nodes: str, tmp_path: Path) -> None:

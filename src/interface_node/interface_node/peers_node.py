@@ -15,7 +15,7 @@ from rclpy.node import Node
 
 from interface_node.goal_client_node import GoalClient
 from interface_node.pulse_node import Pulse
-from interface_node.starting import start_command
+from interface_node.starting import how_to_start, start_command
 from interface_node.waiting import Cancelled, TimedOut, wait_for, wait_until
 
 ShouldStop = Callable[[], bool]
@@ -169,15 +169,12 @@ class Peers:
                 return
 
     def _missing(self, name: str, present: bool, timeout: float) -> str:
-        start = self._start_command(name)
         if present:
             return (
-                f'{name} did not answer within {timeout:g} s: '
-                f'it is busy, or hangs, or was killed; start it anew: {start}'
+                f'{name} did not answer within {timeout:g} s: it is busy, or hangs, or was killed; '
+                f'start it anew: {self._start_command(name)}'
             )
-        return (
-            f'{name} is not running; start it: {start}, or end the others and start all: geohtn up'
-        )
+        return f'{name} is not running: {how_to_start([name], self._namespace)}'
 
     def _start_command(self, name: str) -> str:
         return start_command(name, self._namespace)

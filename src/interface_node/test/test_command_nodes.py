@@ -17,12 +17,12 @@ from interface_node.command_line.main import main
 from interface_node.command_line.nodes import (
     NODES,
     NodeSettings,
-    how_to_start,
     node_command,
     unique_namespace,
 )
 from interface_node.command_line.running_nodes import running_nodes
 from interface_node.parameters import PARAMETERS as INTERFACE_PARAMETERS
+from interface_node.starting import how_to_start
 from motion_planner_node.parameters import specifications
 from task_planner_node.parameters import PARAMETERS as TASK_PLANNER_PARAMETERS
 

@@ -35,6 +35,7 @@ class FakeClient:
         polls_to_plan: int = 2,
         polls_to_vanish: float = inf,
         polls_to_fall_silent: float = inf,
+        hidden: tuple[str, ...] = ('motion_planner_node', 'interface_node'),
     ):
         self.progress = Progress('searching')
         self.result: MissionResult | None = None
@@ -46,12 +47,13 @@ class FakeClient:
         self._to_plan = polls_to_plan
         self._to_vanish = polls_to_vanish
         self._started = False
+        self._hidden = hidden
 
     def missing(self) -> tuple[str, ...]:
         self._to_appear -= 1
         self._to_vanish -= 1
         if self._to_appear >= 0 or self._to_vanish < 0:
-            return ('motion_planner_node', 'interface_node')
+            return self._hidden
         return ()
 
     def start(self, goal: MissionGoal) -> None:
@@ -89,6 +91,14 @@ def test_missing_nodes_are_named_with_how_to_start_them() -> None:
     assert caught.value.exit_code == 3
     assert 'motion_planner_node and interface_node are not running' in caught.value.message
     assert '`geohtn up --namespace team`' in caught.value.message
+
+
+def test_of_a_node_that_speaks_for_the_others_no_more_is_asked_than_to_be_there() -> None:
+    there = FakeClient(polls_to_appear=10**9, hidden=('motion_planner_node',))
+    wait_for_nodes(there, 60.0, '', nothing, speaker='interface_node')
+    none_there = FakeClient(polls_to_appear=10**9)
+    with pytest.raises(CommandError, match='motion_planner_node and interface_node are not'):
+        wait_for_nodes(none_there, 0.0, '', nothing, speaker='interface_node')
 
 
 def test_a_check_ends_the_waiting_for_nodes() -> None:

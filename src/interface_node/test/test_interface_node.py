@@ -148,7 +148,7 @@ def test_missing_planners_are_named_within_five_seconds(client: Client, tmp_path
     result = answer.result
     assert result.outcome.value == msg.Outcome.UNAVAILABLE
     for name in ('motion_planner_node', 'task_planner_node'):
-        assert f'{name} is not running; start it: ' in result.outcome.explanation
+        assert f'{name} is not running: start it with `' in result.outcome.explanation
     document = json.loads((tmp_path / 'plan.json').read_text(encoding='utf-8'))
     assert document['outcome'] == 'UNAVAILABLE'
 

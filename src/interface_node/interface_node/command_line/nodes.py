@@ -12,7 +12,6 @@ from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 
 from interface_node.command_line.errors import CommandError
 from interface_node.command_line.exit_codes import ExitCode
-from interface_node.starting import start_command
 
 #: In the order of starting; package and executable have the name of the node.
 NODES = ('motion_planner_node', 'task_planner_node', 'interface_node')
@@ -59,15 +58,6 @@ def node_command(node: str, settings: NodeSettings) -> list[str]:
 def node_environment(environment: Mapping[str, str]) -> dict[str, str]:
     """Environment of a node whose output is read line by line."""
     return {**environment, 'PYTHONUNBUFFERED': '1', 'RCUTILS_COLORIZED_OUTPUT': '0'}
-
-
-def how_to_start(missing: Sequence[str], namespace: str) -> str:
-    """Advice for somebody to whom these nodes are missing."""
-    everything = f'geohtn up{f" --namespace {namespace}" if namespace else ""}'
-    if len(missing) == 1:
-        single = f'start it with `{start_command(missing[0], namespace)}`'
-        return f'{single}, or end the others and start all with `{everything}`'
-    return f'start the nodes with `{everything}`'
 
 
 def _executable(node: str) -> Path:

@@ -13,11 +13,12 @@ from interface_node.command_line.errors import CommandError
 from interface_node.command_line.exit_codes import ExitCode, exit_code_of
 from interface_node.command_line.goals import MissionGoal
 from interface_node.command_line.interrupts import Interrupts
-from interface_node.command_line.nodes import NODES, how_to_start
+from interface_node.command_line.nodes import NODES
 from interface_node.command_line.progress import progress_line
 from interface_node.command_line.results import MissionResult, Progress
 from interface_node.command_line.solution import solution_plan, step_table, totals
 from interface_node.plan import Plan
+from interface_node.starting import how_to_start
 
 #: [s] that nodes may take to start; the first start on a machine compiles.
 START_PATIENCE = 60.0
@@ -55,14 +56,19 @@ def wait_for_nodes(
     check: Callable[[], None],
     *,
     nodes: Collection[str] = NODES,
+    speaker: str = '',
 ) -> None:
     """Wait until ``nodes`` are to be seen; ``check`` raises what ends the waiting early.
+
+    A ``speaker`` that is to be seen is enough: it tells itself which of the others are missing.
 
     Raises:
         CommandError: NO_NODE with the missing nodes' names, after ``patience`` [s].
     """
     deadline = time.monotonic() + patience
     while missing := [node for node in client.missing() if node in nodes]:
+        if speaker and speaker not in missing:
+            return
         check()
         if time.monotonic() > deadline:
             names = ' and '.join(filter(None, (', '.join(missing[:-1]), missing[-1])))

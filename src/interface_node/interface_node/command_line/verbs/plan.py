@@ -29,7 +29,8 @@ def add(parser: shared.Parser) -> None:
         '--wait',
         metavar='S',
         type=shared.seconds,
-        help=f'how long to look for the nodes, in seconds (until {_PATIENCE} after the start)',
+        help='how long to look for the interface node, in seconds '
+        f'(until {_PATIENCE} after the start)',
     )
 
 
@@ -43,6 +44,6 @@ def run(arguments: Namespace, console: Console, interrupts: Interrupts) -> int:
     check = checking(interrupts)
     with MissionClient(name) as client:
         patience = _PATIENCE - age() if arguments.wait is None else arguments.wait
-        wait_for_nodes(client, patience, name, check)
+        wait_for_nodes(client, patience, name, check, speaker='interface_node')
         result = plan_mission(client, goal, console, check)
         return report(result, goal, console)
