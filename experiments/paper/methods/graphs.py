@@ -106,7 +106,8 @@ def literal_graph(dense: Graph, world: World, seed: int) -> Graph:
     """
     labels = _spread(dense, JOINED)
     number = [list(dense.points).index(label) for label in labels]
-    tree = minimum_spanning_tree(dense.lengths()[number][:, number]).tocoo()
+    lengths = dense.lengths().toarray()[np.ix_(number, number)]
+    tree = minimum_spanning_tree(lengths).tocoo()
     ways = {tuple(sorted((labels[i], labels[j]))) for i, j in zip(*tree.coords, strict=True)}
     if len(ways) != len(labels) - 1:
         raise ValueError('the waypoints that were chosen do not see one another: choose more')

@@ -1,13 +1,10 @@
-"""The first moments of the command: signals while it is being imported, and its age."""
+"""The first moments of the command: signals while it is being imported."""
 
 from __future__ import annotations
 
 import os
 import subprocess
 import sys
-import time
-
-from interface_node.command_line.age import age
 
 INTERRUPTED_IMPORT = """
 import os, signal, sys
@@ -21,9 +18,6 @@ sys.meta_path.insert(0, Interrupter())
 from interface_node.command_line.main import main
 sys.exit(main(['missions']))
 """
-AGE = 'from interface_node.command_line.age import age; print(age())'
-#: [s] of the kernel's clock of processes.
-TICK = 0.02
 
 
 def run(script: str) -> subprocess.CompletedProcess[str]:
@@ -39,11 +33,3 @@ def run(script: str) -> subprocess.CompletedProcess[str]:
 def test_a_signal_in_the_middle_of_the_imports_stops_the_command_in_one_line() -> None:
     ended = run(INTERRUPTED_IMPORT)
     assert (ended.returncode, ended.stdout, ended.stderr) == (130, '', 'geohtn: stopped\n')
-
-
-def test_the_age_counts_from_the_start_of_the_process() -> None:
-    before, clock = age(), time.monotonic()
-    young = run(AGE)
-    elapsed = time.monotonic() - clock
-    assert 0.0 <= float(young.stdout) <= elapsed + TICK
-    assert abs(age() - before - (time.monotonic() - clock)) <= TICK
