@@ -28,26 +28,30 @@ ENDLESS = {
     'advice': f'(:operator (!do) ({JOIN}) () ())(:method (t) () (:unordered (!do) (!do)))',
 }
 
+#: [s] of this process's own time, which other work on the machine does not stretch.
+AT_ONCE = 0.7
+
 
 @pytest.mark.parametrize('kind', ENDLESS)
 def test_the_time_budget_ends_an_enumeration_without_solutions(plan: Plan, kind: str) -> None:
     problem = f'(defproblem x d ({FACTS}) ((t)))'
+    before = time.process_time()
     result = plan(f'(defdomain d ({ENDLESS[kind]}))', problem, None, Options(time_budget=0.2))
     assert result.outcome == Outcome.LIMIT
     assert 'the time budget of 0.2 s is spent' in result.explanation
-    assert result.statistics.planning_time < 0.7
+    assert time.process_time() - before < AT_ONCE
 
 
 @pytest.mark.parametrize('kind', ENDLESS)
 def test_an_enumeration_without_solutions_is_cancelled_at_once(
     no_motion_planner: Oracle, kind: str
 ) -> None:
-    began = time.monotonic()
+    began, before = time.monotonic(), time.process_time()
     planner = Planner(no_motion_planner, Options(), lambda: time.monotonic() - began > 0.2)
     domain = MissionText(text=f'(defdomain d ({ENDLESS[kind]}))')
     result = planner.plan(domain, MissionText(text=f'(defproblem x d ({FACTS}) ((t)))'))
     assert result.outcome == Outcome.CANCELLED
-    assert time.monotonic() - began < 0.7
+    assert time.process_time() - before < AT_ONCE
 
 
 def test_a_proof_that_takes_too_long_is_given_up_and_the_plan_found(plan: Plan) -> None:
