@@ -135,12 +135,20 @@ def test_an_interface_that_vanishes_ends_the_waiting() -> None:
     assert caught.value.exit_code == 3
 
 
-def test_an_interface_that_falls_silent_ends_the_waiting() -> None:
-    client = FakeClient(polls_to_plan=10**9, polls_to_fall_silent=3)
+@pytest.mark.parametrize(('polls_to_fall_silent', 'polls_to_plan'), [(3, 100), (0, 10**9)])
+def test_an_interface_that_falls_silent_ends_the_waiting(
+    polls_to_fall_silent: int, polls_to_plan: int
+) -> None:
+    client = FakeClient(polls_to_plan=polls_to_plan, polls_to_fall_silent=polls_to_fall_silent)
     with pytest.raises(CommandError, match='interface_node no longer answers') as caught:
         plan_mission(client, GOAL, quiet(), nothing)
     assert caught.value.exit_code == 3
     assert client.cancelled == 1
+
+
+def test_the_first_news_may_take_longer_than_others() -> None:
+    client = FakeClient(polls_to_plan=100, polls_to_fall_silent=0)
+    assert plan_mission(client, GOAL, quiet(), nothing) is SOLVED
 
 
 def test_an_interface_that_tells_how_it_goes_is_waited_for() -> None:

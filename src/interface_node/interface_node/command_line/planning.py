@@ -27,6 +27,8 @@ _CANCEL_PATIENCE = 0.9
 #: Looks without news after which the interface node, which tells how it goes twice a second, is
 #: given up. They are counted, so that a command that was suspended does not blame the node.
 _SILENT_LOOKS = 70
+#: The same before the first news: discovery announces itself again after 3 s when it was not heard.
+_FIRST_LOOKS = 140
 
 
 class Client(Protocol):
@@ -108,7 +110,7 @@ def plan_mission(
                 raise CommandError('interface_node went away while it planned', ExitCode.NO_NODE)
             silent = silent + 1 if client.heard == heard else 0
             heard = client.heard
-            if silent >= _SILENT_LOOKS:
+            if silent >= (_SILENT_LOOKS if heard else _FIRST_LOOKS):
                 raise CommandError(
                     'interface_node no longer answers: it hangs, or was killed', ExitCode.NO_NODE
                 )
