@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 from tests.support.missions import ROVER
+from tests.support.motion_planner import wait_until_ready
 from tests.support.processes import geohtn, node_command, processes_in_namespace, running, started
 
 #: [s] within which Ctrl-C has to end a search.
@@ -80,9 +81,8 @@ def test_a_missing_motion_planner_is_named() -> None:
         running(node_command('interface_node', namespace)) as interface,
         running(node_command('task_planner_node', namespace)) as task_planner,
     ):
-        for process in (interface, task_planner):
-            assert process.stdout is not None
-            assert any('ready' in line for line in process.stdout)
+        wait_until_ready(interface)
+        wait_until_ready(task_planner)
         done = geohtn('plan', ROVER, '--namespace', namespace)
     assert done.returncode == 3, done.stdout + done.stderr
     assert 'motion_planner_node is not running: start it with `' in done.stdout + done.stderr

@@ -18,7 +18,7 @@ import interface_node.signals
 import motion_planner_node.signals
 import task_planner_node.signals
 from tests.support.processes import output_of, running
-from tests.support.spinning import DOMAIN
+from tests.support.spinning import DOMAIN, PATIENCE
 
 #: Each node has its own copy, as the packages depend on messages alone.
 COPIES = [interface_node.signals, motion_planner_node.signals, task_planner_node.signals]
@@ -60,8 +60,6 @@ MOMENTS = [
     ('task_planner_node', 'service', 7),
     ('motion_planner_node', 'service', 7),
 ]
-#: [s]
-PATIENCE = 20.0
 #: Calls and returns; more than there are in two rounds of the main loop.
 TWO_ROUNDS = 50
 
